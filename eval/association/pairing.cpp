@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <placegraph/eval/association/nominal_spacing.h>
 #include <placegraph/eval/association/pairing.h>
 #include <placegraph/eval/association/stamp_shift.h>
 #include <placegraph/graph/core/error.h>
@@ -157,21 +158,33 @@ int beside_nearer(const Trajectory& truth, const Trajectory& estimate,
   return count;
 }
 
-/// Whether a frame of the ground truth that has no partner is lost, and one of those to judge.
+/// Which frames of the ground truth without a partner are lost, and of those the ones to judge.
 class LostFrames {
  public:
   LostFrames(const Trajectory& truth, const Trajectory& estimate, double offset_s)
-      : gap_ns_(median_gap_ns(estimate)),
-        denser_(gap_ns_ > kDenserRatio * median_gap_ns(truth)),
-        offset_ns_(std::llround(offset_s * 1e9)) {
+      : gap_ns_(nominal_spacing_ns(stamps_of(estimate))),
+        truth_gap_ns_(nominal_spacing_ns(stamps_of(truth))) {
+    const std::int64_t offset_ns = std::llround(offset_s * 1e9);
     for (const StampedPose& pose : estimate.poses)
-      if (pose.T_world_body) posed_ns_.push_back(pose.stamp_ns + offset_ns_);
+      if (pose.T_world_body) posed_ns_.push_back(pose.stamp_ns + offset_ns);
   }
 
-  /// `last_ns`: of the last frame that is judged; none before the first.
-  bool judge(std::int64_t stamp_ns, std::optional<std::int64_t> last_ns) const {
+  /// Notes a frame that has a partner; all frames are passed in the order of time.
+  void paired(std::int64_t stamp_ns) { last_due_ns_ = stamp_ns; }
+
+  /// Whether a frame without a partner is to be judged.
+  bool judge(std::int64_t stamp_ns) {
     if (distance_ns(stamp_ns) < kNearShare * gap_ns_) return false;
-    return !denser_ || !last_ns || static_cast<double>(stamp_ns - *last_ns) >= gap_ns_ * 0.999;
+    if (!last_due_ns_) {
+      last_due_ns_ = stamp_ns;
+      return true;
+    }
+    // Where the truth is denser, the frame nearest to the time at which the next pose is due.
+    const double late_ns = static_cast<double>(stamp_ns - *last_due_ns_) - gap_ns_;
+    if (gap_ns_ > kDenserRatio * truth_gap_ns_ && late_ns < -0.5 * truth_gap_ns_) return false;
+    const bool behind_a_hole = late_ns > truth_gap_ns_;
+    last_due_ns_ = behind_a_hole ? stamp_ns : *last_due_ns_ + std::llround(gap_ns_);
+    return true;
   }
 
  private:
@@ -184,10 +197,9 @@ class LostFrames {
     return distance;
   }
 
-  double gap_ns_;
-  bool denser_;
-  std::int64_t offset_ns_;
-  std::vector<std::int64_t> posed_ns_;
+  double gap_ns_, truth_gap_ns_;
+  std::vector<std::int64_t> posed_ns_;       ///< of the estimate, in the time of the truth
+  std::optional<std::int64_t> last_due_ns_;  ///< when the last judged pose was due
 };
 
 /// For every line of the ground truth the line of the estimate; -1: none.
@@ -212,8 +224,7 @@ std::vector<int> partners(const Trajectory& truth, const Trajectory& estimate, b
 
 /// The frames to judge, with their estimates.
 void add_pairs(const Trajectory& truth, const Trajectory& estimate,
-               const std::vector<int>& estimate_of, const LostFrames& lost,
-               PairingResult& result) {
+               const std::vector<int>& estimate_of, LostFrames lost, PairingResult& result) {
   const bool by_time = result.association == Association::kTime;
   result.pairs.reserve(by_time ? std::min(truth.size(), estimate.size()) : truth.size());
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -225,10 +236,10 @@ void add_pairs(const Trajectory& truth, const Trajectory& estimate,
     pair.T_world_truth = *truth.poses[i].T_world_body;
     if (estimate_of[i] >= 0)
       pair.T_world_estimate = estimate.poses[static_cast<std::size_t>(estimate_of[i])].T_world_body;
-    const auto last_ns = result.pairs.empty()
-                             ? std::nullopt
-                             : std::optional<std::int64_t>(result.pairs.back().stamp_ns);
-    if (by_time && estimate_of[i] < 0 && !lost.judge(pair.stamp_ns, last_ns)) continue;
+    if (estimate_of[i] >= 0)
+      lost.paired(pair.stamp_ns);
+    else if (by_time && !lost.judge(pair.stamp_ns))
+      continue;
     result.posed += pair.T_world_estimate.has_value();
     result.pairs.push_back(pair);
   }

@@ -1,6 +1,6 @@
+#include <placegraph/eval/association/nominal_spacing.h>
 #include <placegraph/eval/trajectory/common_frames.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/graph/core/median.h>
 
 #include <algorithm>
 #include <limits>
@@ -18,10 +18,7 @@ class PosedTimes {
   explicit PosedTimes(const std::vector<FramePair>& pairs) {
     for (const FramePair& pair : pairs)
       if (pair.T_world_estimate) stamps_ns_.push_back(pair.stamp_ns);
-    std::vector<double> spacings_ns;
-    for (std::size_t i = 1; i < stamps_ns_.size(); ++i)
-      spacings_ns.push_back(static_cast<double>(stamps_ns_[i] - stamps_ns_[i - 1]));
-    if (!spacings_ns.empty()) spacing_ns_ = median_of(std::move(spacings_ns));
+    spacing_ns_ = nominal_spacing_ns(stamps_ns_);
   }
 
   bool covers(std::int64_t stamp_ns) const {

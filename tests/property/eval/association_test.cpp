@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/common_frames.h>
@@ -89,6 +90,54 @@ TEST(Association, CountsWhatTheTruthCovers) {
   const EvaluationResult result = evaluate(holed, truth);
   EXPECT_DOUBLE_EQ(result.coverage, 1);
   EXPECT_THAT(result.warnings, ::testing::Contains(HasSubstr("the ground truth has a hole of 10")));
+}
+
+/// The trajectory without a share of its poses, those first in an order.
+Trajectory without_share(const Trajectory& trajectory, const std::vector<std::size_t>& order,
+                         double share) {
+  std::vector<bool> lost(trajectory.size(), false);
+  const auto count = static_cast<std::size_t>(share * static_cast<double>(order.size()));
+  for (std::size_t i = 0; i < count; ++i) lost[order[i]] = true;
+  Trajectory rest = trajectory;
+  rest.poses.clear();
+  for (std::size_t i = 0; i < trajectory.size(); ++i)
+    if (!lost[i]) rest.poses.push_back(trajectory.poses[i]);
+  return rest;
+}
+
+std::vector<std::size_t> random_order(std::size_t size, Random& random) {
+  std::vector<std::size_t> order(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto other = std::min(i, static_cast<std::size_t>(random.uniform(0, double(i + 1))));
+    order[i] = order[other];
+    order[other] = i;
+  }
+  return order;
+}
+
+TEST(Association, CoverageNeverRisesAsMorePosesAreLostAtRandom) {
+  for (const double estimate_hz : {10.0, 20.0})
+    for (const double denser : {1.0, 2.0, 10.0})
+      for (const double jitter : {0.0, 0.05, 1.0 / 6})  // of a spacing: a third between two stamps
+        for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+          SCOPED_TRACE(fmt::format("{} Hz, truth {} times as dense, jitter {}, seed {}", estimate_hz,
+                                   denser, jitter, seed));
+          Random random(seed);
+          const Trajectory truth = seen_at(denser * estimate_hz, 40, 0, 0, random);
+          const Trajectory whole = seen_at(estimate_hz, 40, 0, jitter / estimate_hz, random);
+          const std::vector<std::size_t> order = random_order(whole.size(), random);
+          double last = 1;
+          for (const double share : {0.0, 0.2, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.8, 0.85}) {
+            const PairingResult paired = pair_trajectories(
+                truth, without_share(whole, order, share), Association::kTime, {0.02, 0});
+            ASSERT_TRUE(paired.outcome) << share << ": " << paired.outcome.reason;
+            const double coverage = double(paired.posed) / double(paired.pairs.size());
+            EXPECT_LE(coverage, last) << share << " lost";
+            // Of a hole of few poses the ends, off by jitter, decide whether one more is missing.
+            EXPECT_NEAR(coverage, 1 - share, jitter > 0 ? 0.06 : 0.01);
+            last = coverage;
+          }
+        }
 }
 
 CommonResult common_of(const Trajectory& truth, const std::vector<Trajectory>& estimates) {
