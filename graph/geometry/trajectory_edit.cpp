@@ -33,6 +33,16 @@ bool is_far(const StampedPose& kept, const StampedPose& pose, const FrameSpacing
   return spacing.deg && rad_to_deg(q_a.angularDistance(q_b)) >= *spacing.deg;
 }
 
+/// By how much the difference of two stamps may be rounded [s].
+double rounding_of_stamps_s(const Trajectory& trajectory) {
+  // Doubles since 1970 are 2^-22 s apart, and those in nanoseconds 256 ns.
+  constexpr double kOfDoubles_s = 0x1p-22 + 256e-9;
+  std::int64_t unit_ns = 1'000'000'000;  // of which all stamps are multiples: the last digit
+  for (const StampedPose& pose : trajectory.poses)
+    while (pose.stamp_ns % unit_ns != 0) unit_ns /= 10;
+  return kOfDoubles_s + 1e-9 * static_cast<double>(unit_ns);
+}
+
 }  // namespace
 
 Trajectory frames_at(const Trajectory& trajectory, const std::vector<std::size_t>& indices) {
@@ -73,7 +83,11 @@ Trajectory resample(const Trajectory& recorded, const std::vector<std::int64_t>&
   return result;
 }
 
-Trajectory spaced(const Trajectory& trajectory, const FrameSpacing& spacing) {
+Trajectory spaced(const Trajectory& trajectory, FrameSpacing spacing) {
+  // Rounding is small against a spacing; stamps in whole tenths of a second are no rounded ones.
+  constexpr double kMostRounding = 1e-3;
+  if (spacing.s)
+    *spacing.s -= std::min(rounding_of_stamps_s(trajectory), kMostRounding * *spacing.s);
   Trajectory part = emptied(trajectory);
   for (const StampedPose& pose : trajectory.poses)
     if (pose.T_world_body && (part.poses.empty() || is_far(part.poses.back(), pose, spacing)))

@@ -32,8 +32,9 @@ struct FrameSpacing {
 };
 
 /// The first posed frame, and every one that is as far from the last one that is kept.
-/// Lost frames are left out.
-Trajectory spaced(const Trajectory& trajectory, const FrameSpacing& spacing);
+/// Lost frames are left out. Seconds are reached within the last digit of the stamps, or within what
+/// doubles of seconds since 1970 round, but a thousandth of the spacing at most.
+Trajectory spaced(const Trajectory& trajectory, FrameSpacing spacing);
 
 /// The trajectory in a plane across one of the axes of the world: 0 x, 1 y, 2 z.
 /// That coordinate becomes 0. The orientation becomes the rotation about that axis that is nearest

@@ -29,6 +29,14 @@ std::vector<double> times_of(const Trajectory& trajectory) {
   return times_s;
 }
 
+using Stamps = std::vector<std::int64_t>;
+
+Stamps stamps_of(const Trajectory& trajectory) {
+  Stamps stamps_ns;
+  for (const StampedPose& pose : trajectory.poses) stamps_ns.push_back(pose.stamp_ns);
+  return stamps_ns;
+}
+
 TEST(TrajectoryEdit, FramesOfATrajectoryWithoutTimesKeepTheirNumbers) {
   const Trajectory drive = test::winding_drive(10, 1, false);
   const Trajectory part = frames_at(drive, {2, 5});
@@ -68,6 +76,30 @@ TEST(TrajectoryEdit, SpacedFramesAreAsFarFromTheLastKeptOneInAnyOfTheDistances) 
       Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()).toRotationMatrix();
   EXPECT_EQ(times_of(spaced(turning, {.m = 5, .deg = 5})), (std::vector<double>{0, 0.1, 0.2}));
   EXPECT_EQ(times_of(spaced(turning, {.deg = 6})), (std::vector<double>{0}));
+}
+
+TEST(TrajectoryEdit, RoundedStampsDropNoPoseThatIsDue) {
+  Random random(7);
+  for (int world = 0; world < 200; ++world) {
+    SCOPED_TRACE("world " + std::to_string(world) + " of seed 7");
+    // The last digit is a thousandth of the spacing at most; as in files since 1970 or since zero.
+    const double period_s = 0.05 * (1 + random.index(6));
+    const int step = 2 + random.index(4), digits = 4 + random.index(6);
+    const double first_s = random.index(2) * 1'403'636'579.0 + random.uniform(0, 1);
+    const double unit_ns = std::pow(10, 9 - digits);
+    Trajectory drive;
+    Stamps due;
+    for (int i = 0; i < 200; ++i) {
+      const double time_s = first_s + i * period_s;  // a double, which itself is rounded
+      const auto stamp_ns = static_cast<std::int64_t>(
+          std::llround(time_s * 1e9 / unit_ns) * std::llround(unit_ns));
+      drive.poses.push_back({stamp_ns, test::isometry({0, 0, 0}, {0, 0, 0})});
+      if (i % step == 0) due.push_back(stamp_ns);
+    }
+    EXPECT_EQ(stamps_of(spaced(drive, {.s = step * period_s})), due);
+    // What is short of the spacing by more than the rounding is not kept.
+    EXPECT_NE(stamps_of(spaced(drive, {.s = 1.01 * step * period_s})), due);
+  }
 }
 
 TEST(TrajectoryEdit, TheRotationInAPlaneIsTheNearestAboutItsNormal) {
