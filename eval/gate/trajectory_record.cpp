@@ -83,8 +83,7 @@ void fill_intervals(const std::vector<EvaluationResult>& runs, SequenceRecord& s
     if (found != of_drive.end())
       figure.interval = found->interval;
     else
-      figure.interval.outcome =
-          Outcome::failure(Outcome::Code::kTooFewData, "one run: no interval");
+      figure.interval.outcome = Outcome::failure(Outcome::Code::kTooFewData, "one run");
   }
 }
 

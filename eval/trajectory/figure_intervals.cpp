@@ -67,7 +67,7 @@ ConfidenceInterval one_run(double value) {
   ConfidenceInterval interval;
   interval.estimate = value;
   interval.of = "repeated runs";
-  interval.outcome = Outcome::failure(Outcome::Code::kTooFewData, "one run: no interval");
+  interval.outcome = Outcome::failure(Outcome::Code::kTooFewData, "one run");
   return interval;
 }
 
