@@ -72,10 +72,11 @@ void take_values(const OffsetFit& fit, double unit_s, OffsetEstimate& result) {
 }
 
 /// Takes out of the lever arm what the motions do not show of it: the fit leaves rests there.
+/// What is free only together with other offsets stays: without it they would no longer fit.
 void leave_free_lever_arm(OffsetEstimate& result) {
   Eigen::Vector3d lever_m = result.T_estimate_truth.translation();
   for (const FreeOffset& free : result.free) {
-    if (free.time || free.rotation.norm() > 0) continue;
+    if (free.time || free.scale || free.rotation.norm() > 0) continue;
     // Without a vector all of it is free.
     const Eigen::Vector3d& axis = free.lever_arm;
     lever_m = axis.norm() == 0 ? Eigen::Vector3d::Zero() : Eigen::Vector3d(lever_m - axis * axis.dot(lever_m));

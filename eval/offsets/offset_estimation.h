@@ -27,6 +27,7 @@ struct FreeOffset {
   Eigen::Vector3d lever_arm = Eigen::Vector3d::Zero();  ///< unit vector, or zero
   Eigen::Vector3d rotation = Eigen::Vector3d::Zero();   ///< axis as unit vector, or zero
   bool time = false;                                    ///< the time takes part
+  bool scale = false;                                   ///< the scale takes part
   std::string text;                                     ///< one line: what is free, and why
 };
 

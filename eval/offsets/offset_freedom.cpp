@@ -8,10 +8,8 @@
 namespace placegraph {
 namespace {
 
-/// Share of a free direction with which a parameter takes part in its name. Chosen.
-constexpr double kPart = 0.1;
-/// And that with which its value is unknown: a metre along the direction moves it by a centimetre.
-/// Chosen.
+/// Share of a free direction with which a parameter takes part in it, and its value is unknown: a
+/// metre along the direction moves it by a centimetre. Chosen.
 constexpr double kMoved = 0.01;
 
 /// A unit vector whose largest component is positive, without negative zeros.
@@ -46,7 +44,7 @@ void take_out(Eigen::MatrixXd& columns, const OffsetVector& direction) {
 std::vector<FreeOffset> lever_arms(const std::vector<Eigen::Vector3d>& axes) {
   if (axes.size() == 3)
     return {FreeOffset{
-        {0, 0, 0}, {0, 0, 0}, false, "the lever arm is free: the body does not turn"}};
+        {0, 0, 0}, {0, 0, 0}, false, false, "the lever arm is free: the body does not turn"}};
   std::vector<FreeOffset> named;
   for (const Eigen::Vector3d& axis : axes) {
     FreeOffset free;
@@ -62,7 +60,7 @@ std::vector<FreeOffset> lever_arms(const std::vector<Eigen::Vector3d>& axes) {
 std::vector<FreeOffset> rotations(const std::vector<Eigen::Vector3d>& axes) {
   if (axes.size() == 3)
     return {FreeOffset{
-        {0, 0, 0}, {0, 0, 0}, false, "the rotation of the body is free: it stands still"}};
+        {0, 0, 0}, {0, 0, 0}, false, false, "the rotation of the body is free: it stands still"}};
   std::vector<FreeOffset> named;
   for (const Eigen::Vector3d& axis : axes) {
     FreeOffset free;
@@ -82,17 +80,18 @@ FreeOffset together(const OffsetVector& direction) {
   const auto add = [&](const std::string& part) {
     what += (what.empty() ? "" : " together with ") + part;
   };
-  if (direction.head<3>().norm() > kPart) {
+  if (direction.head<3>().norm() > kMoved) {
     free.lever_arm = unit_axis(direction.head<3>());
     add("the lever arm along " + axis_text(free.lever_arm));
   }
-  if (direction.segment<3>(kRotationAt).norm() > kPart) {
+  if (direction.segment<3>(kRotationAt).norm() > kMoved) {
     free.rotation = unit_axis(direction.segment<3>(kRotationAt));
     add("the rotation about " + axis_text(free.rotation));
   }
-  free.time = std::abs(direction[kTimeAt]) > kPart;
+  free.time = std::abs(direction[kTimeAt]) > kMoved;
   if (free.time) add("the time");
-  if (std::abs(direction[kScaleAt]) > kPart) add("the scale");
+  free.scale = std::abs(direction[kScaleAt]) > kMoved;
+  if (free.scale) add("the scale");
   free.text = what + " is free: every motion that the trajectories make looks the same with it";
   return free;
 }

@@ -4,6 +4,7 @@
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/error.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/unit/eval/offsets/offset_worlds.h"
@@ -276,6 +277,48 @@ TEST(OffsetEstimation, ABodyThatStandsStillShowsNothing) {
   EXPECT_THAT(to_text(found), HasSubstr("no offsets: the lever arm is free"));
 }
 
+TEST(OffsetEstimation, InACircleALeverArmIsFreeTogetherWithTheScaleAndFitsWithIt) {
+  const Vector6d twist = (Vector6d() << 5, 0, 0, 0, 0, 0.3).finished();
+  for (int seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    OffsetWorld world = steady(twist);
+    world.T_estimate_truth =
+        SE3(SO3::exp({0, 0, random.uniform(-0.5, 0.5)}), random_vector(0.5, random));
+    world.scale = random.uniform(0.4, 2.5);
+    world.truth_m = world.estimate_m = world.truth_rad = world.estimate_rad = 0;
+    OffsetOptions options;
+    options.body = options.scale = true;
+    const OffsetEstimate found =
+        estimate_offsets(world.truth(random), world.estimate(random), options);
+    ASSERT_TRUE(found.outcome) << found.outcome.reason;
+    const auto with_scale = std::ranges::find(found.free, true, &FreeOffset::scale);
+    ASSERT_NE(with_scale, found.free.end());
+    EXPECT_GT(with_scale->lever_arm.norm(), 0.99);
+    EXPECT_THAT(with_scale->text, HasSubstr("together with the scale is free"));
+    // Velocity of the truth's body in its own frame, by what was found: the parts fit each other.
+    const Vector6d of_estimate = world.T_estimate_truth.adjoint() * twist;
+    Vector6d scaled = of_estimate;
+    scaled.head<3>() *= found.scale / world.scale;
+    const Vector6d predicted = found.T_estimate_truth.inverse().adjoint() * scaled;
+    EXPECT_LT((predicted - twist).norm(), 1e-4);
+  }
+}
+
+TEST(OffsetEstimation, WithoutRotationTheScaleIsShownAndTheLeverArmAloneFree) {
+  Random random(48);
+  OffsetWorld world = steady((Vector6d() << 5, 0, 0, 0, 0, 0).finished());
+  world.scale = 0.4;
+  OffsetOptions options;
+  options.body = options.scale = true;
+  const OffsetEstimate found =
+      estimate_offsets(world.truth(random), world.estimate(random), options);
+  ASSERT_TRUE(found.outcome) << found.outcome.reason;
+  EXPECT_NEAR(found.scale, 0.4, 1e-3);
+  EXPECT_EQ(found.T_estimate_truth.translation().norm(), 0);
+  for (const FreeOffset& free : found.free) EXPECT_FALSE(free.scale) << free.text;
+}
+
 TEST(OffsetEstimation, OnALineTheRotationAboutItIsFree) {
   Random random(43);
   OffsetWorld world = steady(Vector6d::Zero());
@@ -396,7 +439,7 @@ TEST(OffsetReport, HasValuesDeviationsAndWhatIsFree) {
   offsets.time_deviation_s = 0.001;
   offsets.lever_arm_deviation_m = {0.01, 0.02, std::numeric_limits<double>::infinity()};
   offsets.rotation_deviation_rad = {0.01, 0.01, 0.01};
-  offsets.free = {{{0, 0, 1}, {0, 0, 0}, false, "the lever arm along z is free: so it is"}};
+  offsets.free = {{{0, 0, 1}, {0, 0, 0}, false, false, "the lever arm along z is free: so it is"}};
   const std::string text = to_text(offsets);
   EXPECT_THAT(text, HasSubstr("(0.2500 -0.5000 0.0000) +- (0.0100 0.0200 free) m"));
   EXPECT_THAT(text, HasSubstr("(0.000 0.000 28.648) +- (0.573 0.573 0.573) deg"));
