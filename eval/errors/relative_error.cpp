@@ -84,9 +84,26 @@ class StepEnds {
 /// The median spacing of the stamps; 0 for less than two pairs.
 double median_spacing_ns(const std::vector<FramePair>& pairs) {
   std::vector<double> spacings_ns;
+  spacings_ns.reserve(pairs.size());
   for (std::size_t i = 1; i < pairs.size(); ++i)
     spacings_ns.push_back(static_cast<double>(pairs[i].stamp_ns - pairs[i - 1].stamp_ns));
   return spacings_ns.empty() ? 0 : median_of(std::move(spacings_ns));
+}
+
+/// As gaps_before(), of pairs whose median spacing is known.
+std::vector<bool> gaps_by_spacing(const std::vector<FramePair>& pairs, double median_ns) {
+  std::vector<double> deviations_ns;
+  deviations_ns.reserve(pairs.size());
+  for (std::size_t i = 1; i < pairs.size(); ++i)
+    deviations_ns.push_back(
+        std::abs(static_cast<double>(pairs[i].stamp_ns - pairs[i - 1].stamp_ns) - median_ns));
+  const double deviation_ns = deviations_ns.empty() ? 0 : median_of(std::move(deviations_ns));
+  const double longest_ns = median_ns + std::max(0.5 * median_ns, 10 * deviation_ns);
+  std::vector<bool> gaps(pairs.size(), true);
+  for (std::size_t i = 1; i < pairs.size(); ++i)
+    gaps[i] = !pairs[i - 1].T_world_estimate || !pairs[i].T_world_estimate ||
+              static_cast<double>(pairs[i].stamp_ns - pairs[i - 1].stamp_ns) > longest_ns;
+  return gaps;
 }
 
 RelativeError error_of_step(const FramePair& a, const FramePair& b, double scale) {
@@ -164,18 +181,7 @@ void visit(OptionVisitor& field, RelativeErrorOptions& o) {
 }
 
 std::vector<bool> gaps_before(const std::vector<FramePair>& pairs) {
-  const double median_ns = median_spacing_ns(pairs);
-  std::vector<double> deviations_ns;
-  for (std::size_t i = 1; i < pairs.size(); ++i)
-    deviations_ns.push_back(
-        std::abs(static_cast<double>(pairs[i].stamp_ns - pairs[i - 1].stamp_ns) - median_ns));
-  const double deviation_ns = deviations_ns.empty() ? 0 : median_of(std::move(deviations_ns));
-  const double longest_ns = median_ns + std::max(0.5 * median_ns, 10 * deviation_ns);
-  std::vector<bool> gaps(pairs.size(), true);
-  for (std::size_t i = 1; i < pairs.size(); ++i)
-    gaps[i] = !pairs[i - 1].T_world_estimate || !pairs[i].T_world_estimate ||
-              static_cast<double>(pairs[i].stamp_ns - pairs[i - 1].stamp_ns) > longest_ns;
-  return gaps;
+  return gaps_by_spacing(pairs, median_spacing_ns(pairs));
 }
 
 RelativeErrors relative_errors(const std::vector<FramePair>& pairs, bool has_times,
@@ -188,16 +194,16 @@ RelativeErrors relative_errors(const std::vector<FramePair>& pairs, bool has_tim
                                       "steps of " + text_of(delta) + " need times");
     return result;
   }
-  const double slack_ns = 0.5 * median_spacing_ns(pairs);
+  const double spacing_ns = median_spacing_ns(pairs), slack_ns = 0.5 * spacing_ns;
   if (delta.unit == Delta::Unit::kSeconds && delta.value * 1e9 < slack_ns) {
     result.outcome = Outcome::failure(
         Outcome::Code::kTooFewData,
         fmt::format("steps of {} are shorter than half the spacing of the poses, {:.3g} s",
-                    text_of(delta), 2e-9 * slack_ns));
+                    text_of(delta), 1e-9 * spacing_ns));
     return result;
   }
   int stretches = 0;
-  for (const Stretch& stretch : stretches_of(gaps_before(pairs))) {
+  for (const Stretch& stretch : stretches_of(gaps_by_spacing(pairs, spacing_ns))) {
     if (!pairs[stretch.first].T_world_estimate) continue;
     ++stretches;
     add_steps(pairs, stretch, delta, choice, slack_ns, result);
