@@ -9,6 +9,11 @@ double rotation_angle(const Eigen::Matrix3d& R) {
   return std::atan2(twice_sin_axis.norm(), R.trace() - 1.0);
 }
 
+double twist_angle(const Eigen::Matrix3d& R, const Eigen::Vector3d& axis) {
+  const Eigen::Quaterniond q(R);
+  return 2 * std::atan2(std::abs(q.vec().dot(axis)), std::abs(q.w()));
+}
+
 std::vector<double> travelled_m(const std::vector<FramePair>& pairs) {
   std::vector<double> distance_m(pairs.size(), 0.0);
   for (std::size_t i = 1; i < pairs.size(); ++i)

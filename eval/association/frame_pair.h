@@ -29,6 +29,9 @@ inline Eigen::Matrix4d relative_pose(const Eigen::Isometry3d& T_world_a,
 /// Angle [rad], in [0, pi], of a rotation matrix that may be orthonormal to some digits only.
 double rotation_angle(const Eigen::Matrix3d& R);
 
+/// Angle [rad], in [0, pi], of the part of a rotation about an axis (swing and twist).
+double twist_angle(const Eigen::Matrix3d& R, const Eigen::Vector3d& axis);
+
 /// Length of the true path [m] up to every frame; 0 at the first.
 std::vector<double> travelled_m(const std::vector<FramePair>& pairs);
 

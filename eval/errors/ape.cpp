@@ -10,12 +10,6 @@
 namespace placegraph {
 namespace {
 
-/// Angle of the part of a rotation that is about an axis (swing-twist decomposition), in [0, pi].
-double twist_angle(const Eigen::Matrix3d& R, const Eigen::Vector3d& axis) {
-  const Eigen::Quaterniond q(R);
-  return 2 * std::atan2(std::abs(q.vec().dot(axis)), std::abs(q.w()));
-}
-
 /// Directions of the true path, level, by chords of a length about each pair.
 class PathDirections {
  public:

@@ -106,7 +106,17 @@ std::vector<bool> gaps_by_spacing(const std::vector<FramePair>& pairs, double me
   return gaps;
 }
 
-RelativeError error_of_step(const FramePair& a, const FramePair& b, double scale) {
+/// Divides the rotation of an error, in the axes of the true body, by the vertical of its world.
+void divide_rotation(const Eigen::Matrix3d& R_error, const Eigen::Matrix3d& R_world_truth,
+                     const Eigen::Vector3d& up, RelativeError& step) {
+  const Eigen::Matrix3d in_world = R_world_truth * R_error * R_world_truth.inverse();
+  const Eigen::Vector3d moved_up = in_world * up;
+  step.heading_deg = rad_to_deg(twist_angle(in_world, up));
+  step.inclination_deg = rad_to_deg(std::atan2(up.cross(moved_up).norm(), up.dot(moved_up)));
+}
+
+RelativeError error_of_step(const FramePair& a, const FramePair& b, double scale,
+                            const std::optional<Eigen::Vector3d>& up) {
   Eigen::Matrix4d T_a_b_estimate = relative_pose(*a.T_world_estimate, *b.T_world_estimate);
   T_a_b_estimate.topRightCorner<3, 1>() *= scale;
   const Eigen::Matrix4d T_a_b_truth = relative_pose(a.T_world_truth, b.T_world_truth);
@@ -114,6 +124,7 @@ RelativeError error_of_step(const FramePair& a, const FramePair& b, double scale
   RelativeError step;
   step.translation_m = error.topRightCorner<3, 1>().norm();
   step.rotation_deg = rad_to_deg(rotation_angle(error.topLeftCorner<3, 3>()));
+  if (up) divide_rotation(error.topLeftCorner<3, 3>(), b.T_world_truth.linear(), *up, step);
   step.full = (error - Eigen::Matrix4d::Identity()).norm();
   step.length_m = std::abs(T_a_b_truth.topRightCorner<3, 1>().norm() -
                            T_a_b_estimate.topRightCorner<3, 1>().norm());
@@ -185,7 +196,8 @@ std::vector<bool> gaps_before(const std::vector<FramePair>& pairs) {
 }
 
 RelativeErrors relative_errors(const std::vector<FramePair>& pairs, bool has_times,
-                               const Delta& delta, StepPairs choice, double scale) {
+                               const Delta& delta, StepPairs choice, double scale,
+                               const std::optional<Eigen::Vector3d>& up) {
   RelativeErrors result;
   result.delta = delta;
   result.pairs = choice;
@@ -216,12 +228,17 @@ RelativeErrors relative_errors(const std::vector<FramePair>& pairs, bool has_tim
   for (RelativeError& step : result.errors) {
     const int first = step.first, last = step.last;
     step = error_of_step(pairs[static_cast<std::size_t>(first)],
-                         pairs[static_cast<std::size_t>(last)], scale);
+                         pairs[static_cast<std::size_t>(last)], scale, up);
     step.first = first;
     step.last = last;
   }
   result.translation_m = of_each(result.errors, &RelativeError::translation_m);
   result.rotation_deg = of_each(result.errors, &RelativeError::rotation_deg);
+  result.has_vertical = up.has_value();
+  if (up) {
+    result.heading_deg = of_each(result.errors, &RelativeError::heading_deg);
+    result.inclination_deg = of_each(result.errors, &RelativeError::inclination_deg);
+  }
   result.full = of_each(result.errors, &RelativeError::full);
   result.length_m = of_each(result.errors, &RelativeError::length_m);
   result.outcome = Outcome::ok();

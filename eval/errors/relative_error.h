@@ -5,6 +5,7 @@
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/core/outcome.h>
 
+#include <optional>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
@@ -21,6 +22,8 @@ struct RelativeError {
   int first = 0, last = 0;   ///< i and j, positions in the list of pairs
   double translation_m = 0;  ///< |trans E|
   double rotation_deg = 0;   ///< angle of E
+  double heading_deg = 0;      ///< angle of the part of E about the vertical; 0 without one
+  double inclination_deg = 0;  ///< angle between the two up directions; 0 without a vertical
   double full = 0;           ///< Frobenius norm of E - I: metres and radians in one number
   double length_m = 0;       ///< difference of the lengths of both translations, not negative
 };
@@ -31,6 +34,8 @@ struct RelativeErrors {
   Delta delta;                               ///< length of the steps
   StepPairs pairs = StepPairs::kConsecutive; ///< where they begin
   Statistics translation_m, rotation_deg;    ///< meaningful only if outcome
+  bool has_vertical = false;                 ///< heading and inclination are judged
+  Statistics heading_deg, inclination_deg;   ///< meaningful only if outcome and has_vertical
   Statistics full, length_m;                 ///< likewise
   std::vector<RelativeError> errors;         ///< by first pose
   int gaps = 0;                              ///< gaps within the drive, which no step crosses
@@ -42,12 +47,15 @@ struct RelativeErrors {
 /// pose nearest in time. No step has a gap within: a frame without estimate, or a hole in the times
 /// (see gaps_before). Positions of the estimate are multiplied by `scale`. The angle is taken from
 /// the skew part as well as the trace: acos of the trace alone cannot distinguish 0.02 deg from
-/// zero in matrices of seven digits. Outcome: kTooFewData if no step fits, kInconsistent for
-/// seconds without times.
+/// zero in matrices of seven digits. With `up`, the vertical in the truth's world, the rotation of E
+/// at the end of a step is divided into one about the vertical (heading) and one about a level axis
+/// (inclination), as in Zhang and Scaramuzza 2018. Outcome: kTooFewData if no step fits,
+/// kInconsistent for seconds without times.
 [[nodiscard]] RelativeErrors relative_errors(const std::vector<FramePair>& pairs, bool has_times,
                                              const Delta& delta,
                                              StepPairs choice = StepPairs::kConsecutive,
-                                             double scale = 1);
+                                             double scale = 1,
+                                             const std::optional<Eigen::Vector3d>& up = {});
 
 /// For every pair, whether a gap lies between it and the one before; true for the first.
 ///

@@ -241,6 +241,8 @@ const std::string& default_rules_text() {
       "* | *_max_* | info\n"
       "* | *_sse_* | info\n"
       "* | *_p95_* | info\n"
+      "* | *_heading_deg | info\n"
+      "* | *_inclination_deg | info\n"
       "* | scale_drift* | info\n"
       "* | coverage | worse 0.01\n"
       "* | judged_frames | worse 5 %\n"

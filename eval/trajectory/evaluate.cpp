@@ -37,9 +37,13 @@ Outcome needs_orientation(const char* what) {
 void judge_motions(const std::vector<FramePair>& pairs, bool has_times,
                    const EvaluationOptions& options, EvaluationResult& r) {
   const double scale = r.alignment.scale;
-  r.rpe = relative_errors(pairs, has_times, {}, StepPairs::kConsecutive, scale);
+  const VerticalResult vertical = vertical_of(pairs, true, options.vertical);
+  std::optional<Eigen::Vector3d> up;
+  if (vertical.outcome) up = vertical.axis;
+  r.rpe = relative_errors(pairs, has_times, {}, StepPairs::kConsecutive, scale, up);
   for (const Delta& delta : options.relative.deltas)
-    r.relative.push_back(relative_errors(pairs, has_times, delta, options.relative.pairs, scale));
+    r.relative.push_back(
+        relative_errors(pairs, has_times, delta, options.relative.pairs, scale, up));
   r.segments = scale == 1 ? kitti_segments(pairs, has_times, options.segments)
                           : kitti_segments(scaled(scale, pairs), has_times, options.segments);
 }

@@ -59,6 +59,10 @@ Json relative_json(const std::vector<RelativeErrors>& relative) {
     if (steps.outcome) {
       row["translation_m"] = statistics_json(steps.translation_m);
       row["rotation_deg"] = statistics_json(steps.rotation_deg);
+      if (steps.has_vertical) {
+        row["heading_deg"] = statistics_json(steps.heading_deg);
+        row["inclination_deg"] = statistics_json(steps.inclination_deg);
+      }
       row["full"] = statistics_json(steps.full);
       row["length_m"] = statistics_json(steps.length_m);
     }

@@ -75,6 +75,10 @@ std::vector<Metric> relative_metrics(const EvaluationResult& r) {
        "RMSE, " + rpe_text},
       {"rpe_rot_median_deg", "RPE rot median", "deg", when(has_rpe, r.rpe.rotation_deg.median),
        "median, " + rpe_text},
+      {"rpe_heading_deg", "RPE heading", "deg",
+       when(has_rpe && r.rpe.has_vertical, r.rpe.heading_deg.rmse), "RMSE, " + rpe_text},
+      {"rpe_inclination_deg", "RPE inclination", "deg",
+       when(has_rpe && r.rpe.has_vertical, r.rpe.inclination_deg.rmse), "RMSE, " + rpe_text},
   };
   for (const RelativeErrors& steps : r.relative) {
     const bool has = r.outcome && steps.outcome;
@@ -85,6 +89,10 @@ std::vector<Metric> relative_metrics(const EvaluationResult& r) {
                    when(has, steps.translation_m.rmse), text});
     all.push_back({key + "_rot_deg", "RPE rot" + over, "deg",
                    when(has, steps.rotation_deg.rmse), text});
+    all.push_back({key + "_heading_deg", "RPE heading" + over, "deg",
+                   when(has && steps.has_vertical, steps.heading_deg.rmse), text});
+    all.push_back({key + "_inclination_deg", "RPE inclination" + over, "deg",
+                   when(has && steps.has_vertical, steps.inclination_deg.rmse), text});
   }
   return all;
 }
@@ -127,6 +135,11 @@ std::vector<ErrorRow> error_rows(const EvaluationResult& r) {
     if (!steps.outcome) return;
     rows.push_back({key + "_trans_m", name + ", translation", "m", steps.translation_m});
     rows.push_back({key + "_rot_deg", name + ", rotation", "deg", steps.rotation_deg});
+    if (steps.has_vertical) {
+      rows.push_back({key + "_heading_deg", name + ", heading", "deg", steps.heading_deg});
+      rows.push_back(
+          {key + "_inclination_deg", name + ", inclination", "deg", steps.inclination_deg});
+    }
     rows.push_back({key + "_full", name + ", whole motion", "", steps.full});
     rows.push_back({key + "_length_m", name + ", length", "m", steps.length_m});
   };

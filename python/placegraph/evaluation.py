@@ -96,6 +96,16 @@ class Evaluation:
         """Statistics of the errors in rotation between consecutive frames [deg]."""
         return self._core.rpe_deg
 
+    @property
+    def rpe_heading_deg(self) -> _core.Statistics | None:
+        """Statistics of their part about the vertical [deg]; None if none is evident."""
+        return self._core.rpe_heading_deg
+
+    @property
+    def rpe_inclination_deg(self) -> _core.Statistics | None:
+        """Statistics of the angles between the two up directions [deg]; None without a vertical."""
+        return self._core.rpe_inclination_deg
+
     def __bool__(self) -> bool:
         return self._core.ok
 
@@ -150,6 +160,7 @@ class Evaluation:
     def steps(self, delta: str = "1f") -> pandas.DataFrame:
         """The relative errors of each step over a delta of the evaluation: '1s', '10f', '5m'.
 
+        heading_deg and inclination_deg are missing if no vertical is evident.
         ArgumentError: the evaluation was not asked for that delta.
         """
         return table_of(self._core.step_table(delta))

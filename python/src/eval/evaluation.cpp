@@ -144,6 +144,19 @@ void bind_result(nb::module_& m) {
           "rpe_deg",
           [](const EvaluationResult& r) { return if_known(r.rpe.outcome, r.rpe.rotation_deg); },
           doc("RelativeErrors::rotation_deg"))
+      .def_prop_ro(
+          "rpe_heading_deg",
+          [](const EvaluationResult& r) {
+            return r.rpe.has_vertical ? if_known(r.rpe.outcome, r.rpe.heading_deg) : std::nullopt;
+          },
+          "Statistics of the heading's part of the errors between consecutive frames [deg].")
+      .def_prop_ro(
+          "rpe_inclination_deg",
+          [](const EvaluationResult& r) {
+            return r.rpe.has_vertical ? if_known(r.rpe.outcome, r.rpe.inclination_deg)
+                                      : std::nullopt;
+          },
+          "Statistics of the inclination's part of the errors between consecutive frames [deg].")
       .def(
           "metric_rows", [](const EvaluationResult& r) { return rows_of(metrics(r)); },
           "All figures, a dictionary each.")

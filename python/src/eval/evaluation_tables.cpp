@@ -124,12 +124,16 @@ Table error_table(const EvaluationResult& result) {
 /// The steps of one relative error; frames are those of the ground truth.
 static Table step_table(const EvaluationResult& result, const RelativeErrors& steps) {
   std::vector<std::int64_t> first, last;
-  std::vector<double> translation, rotation, full, length;
+  std::vector<double> translation, rotation, heading, inclination, full, length;
   for (const RelativeError& step : steps.errors) {
     first.push_back(result.aligned_pairs[static_cast<std::size_t>(step.first)].frame);
     last.push_back(result.aligned_pairs[static_cast<std::size_t>(step.last)].frame);
     translation.push_back(step.translation_m);
     rotation.push_back(step.rotation_deg);
+    if (steps.has_vertical) {
+      heading.push_back(step.heading_deg);
+      inclination.push_back(step.inclination_deg);
+    }
     full.push_back(step.full);
     length.push_back(step.length_m);
   }
@@ -139,6 +143,10 @@ static Table step_table(const EvaluationResult& result, const RelativeErrors& st
   table["last_frame"] = owned_array(std::move(last), {n});
   table["translation_m"] = owned_array(std::move(translation), {n});
   table["rotation_deg"] = owned_array(std::move(rotation), {n});
+  if (steps.has_vertical) {
+    table["heading_deg"] = owned_array(std::move(heading), {n});
+    table["inclination_deg"] = owned_array(std::move(inclination), {n});
+  }
   table["full"] = owned_array(std::move(full), {n});
   table["length_m"] = owned_array(std::move(length), {n});
   return table;

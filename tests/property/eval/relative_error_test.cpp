@@ -95,17 +95,24 @@ TEST(RelativeErrors, DoNotDependOnTheFrameNorOnTheAlignment) {
     Random random(seed);
     std::vector<FramePair> pairs = broken_drive(random, 120);
     const Delta delta{2, Delta::Unit::kMetres};
-    const RelativeErrors before = relative_errors(pairs, true, delta, StepPairs::kAll);
+    const Eigen::Vector3d up = Eigen::Vector3d(0.1, -1, 0.2).normalized();
+    const RelativeErrors before = relative_errors(pairs, true, delta, StepPairs::kAll, 1, up);
     const Eigen::Isometry3d A = isometry({0.3, -2, 1}, {100, -50, 7});
     const Eigen::Isometry3d B = isometry({-1, 0.2, 2}, {-9, 3, 800});
     for (FramePair& pair : pairs) {
       pair.T_world_truth = A * pair.T_world_truth;
       if (pair.T_world_estimate) pair.T_world_estimate = B * *pair.T_world_estimate;
     }
-    const RelativeErrors after = relative_errors(pairs, true, delta, StepPairs::kAll);
+    // The vertical is that of the truth's world, and turns with it.
+    const RelativeErrors after =
+        relative_errors(pairs, true, delta, StepPairs::kAll, 1, A.linear() * up);
     ASSERT_EQ(before.errors.size(), after.errors.size());
     EXPECT_NEAR(before.translation_m.rmse, after.translation_m.rmse, 1e-10);
     EXPECT_NEAR(before.rotation_deg.rmse, after.rotation_deg.rmse, 1e-10);
+    EXPECT_NEAR(before.heading_deg.rmse, after.heading_deg.rmse, 1e-10);
+    EXPECT_NEAR(before.inclination_deg.rmse, after.inclination_deg.rmse, 1e-10);
+    for (const RelativeError& step : before.errors)  // both parts are of the whole
+      EXPECT_LE(std::max(step.heading_deg, step.inclination_deg), step.rotation_deg + 1e-9);
     EXPECT_NEAR(before.full.rmse, after.full.rmse, 1e-10);
   }
 }

@@ -195,5 +195,49 @@ TEST(Statistics, HaveTheQuantilesOfTheSortedList) {
   }
 }
 
+/// Two poses a metre apart along x, and an error at the end of the step, in the world.
+RelativeErrors with_error_at_end(const Eigen::Vector3d& world_rotation, const Eigen::Vector3d& up) {
+  std::vector<FramePair> pairs(2);
+  pairs[0].T_world_truth = isometry({0.3, 0.2, -1}, {0, 0, 0});
+  pairs[1].T_world_truth = isometry({-0.4, 0.1, 2}, {1, 0, 0});
+  pairs[1].stamp_ns = 100'000'000;
+  for (FramePair& pair : pairs) pair.T_world_estimate = pair.T_world_truth;
+  pairs[1].T_world_estimate->linear() =
+      isometry(world_rotation, {0, 0, 0}).linear() * pairs[1].T_world_truth.linear();
+  return relative_errors(pairs, true, {}, StepPairs::kConsecutive, 1, up);
+}
+
+TEST(RelativeErrors, OfTheHeadingAloneHaveNoInclinationAndTheOtherWayRound) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Vector3d up = Eigen::Vector3d::Unit(axis);
+    for (const double deg : {-170.0, -3.0, 0.0, 2.0, 90.0}) {
+      SCOPED_TRACE(std::to_string(deg) + " deg about axis " + std::to_string(axis));
+      const RelativeErrors turned = with_error_at_end(deg * kRadPerDeg * up, up);
+      ASSERT_TRUE(turned.has_vertical);
+      EXPECT_NEAR(turned.errors[0].heading_deg, std::abs(deg), 1e-9);
+      EXPECT_NEAR(turned.errors[0].inclination_deg, 0, 1e-9);
+      const Eigen::Vector3d level =
+          (Eigen::Vector3d::Unit((axis + 1) % 3) - 2 * Eigen::Vector3d::Unit((axis + 2) % 3))
+              .normalized();
+      const RelativeErrors tilted = with_error_at_end(deg * kRadPerDeg * level, up);
+      EXPECT_NEAR(tilted.errors[0].heading_deg, 0, 1e-9);
+      EXPECT_NEAR(tilted.errors[0].inclination_deg, std::abs(deg), 1e-9);
+      EXPECT_NEAR(tilted.errors[0].rotation_deg, std::abs(deg), 1e-9);
+    }
+  }
+  // Both: a tilt of 0.3 rad, then a turn of 0.4 about the vertical: cos(angle / 2) is the product.
+  const Eigen::Matrix3d both =
+      (Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitZ()) *
+       Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()))
+          .toRotationMatrix();
+  const Eigen::AngleAxisd whole(both);
+  const RelativeErrors errors =
+      with_error_at_end(whole.angle() * whole.axis(), Eigen::Vector3d::UnitZ());
+  EXPECT_NEAR(errors.heading_deg.rmse, rad_to_deg(0.4), 1e-9);
+  EXPECT_NEAR(errors.inclination_deg.rmse, rad_to_deg(0.3), 1e-9);
+  EXPECT_NEAR(errors.rotation_deg.rmse, rad_to_deg(2 * std::acos(std::cos(0.2) * std::cos(0.15))),
+              1e-9);
+}
+
 }  // namespace relative_error_test
 }  // namespace placegraph

@@ -45,6 +45,8 @@ TEST(Report, JsonHasTheKeysScriptsRelyOn) {
   EXPECT_EQ(json["rpe_trans_m"], r.rpe.translation_m.rmse);
   EXPECT_EQ(json["rpe_rot_deg"], r.rpe.rotation_deg.rmse);
   EXPECT_EQ(json["rpe_rot_median_deg"], r.rpe.rotation_deg.median);
+  EXPECT_EQ(json["rpe_heading_deg"], r.rpe.heading_deg.rmse);
+  EXPECT_EQ(json["errors"]["rpe_inclination_deg"]["max"], r.rpe.inclination_deg.max);
   EXPECT_EQ(json["per_length"].size(), 1u);
 }
 
