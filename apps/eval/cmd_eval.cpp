@@ -117,6 +117,11 @@ void add_error_options(CLI::App& command, EvalArguments& a) {
   command.add_flag("--all-pairs", a.all_pairs,
                    "begin a step of --delta at every pose; default: where the one before ends");
   command
+      .add_option("--below", a.below,
+                  "shares of the drive with errors below 0.1m (position) or 1deg (rotation); several "
+                  "joined by commas")
+      ->delimiter(',');
+  command
       .add_option("--part", a.part,
                   "part of the position errors that is judged: in a plane, or along an axis")
       ->check(CLI::IsMember(eval_parts()))

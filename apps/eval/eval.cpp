@@ -235,6 +235,7 @@ EvaluationOptions evaluation_options(const EvalArguments& arguments) {
   options.part = choice<ErrorPart>("--part", eval_parts(), arguments.part);
   for (const std::string& delta : arguments.deltas)
     options.relative.deltas.push_back(parse_delta(delta));
+  options.below = parse_error_bounds(fmt::format("{}", fmt::join(arguments.below, ",")));
   if (arguments.all_pairs) options.relative.pairs = StepPairs::kAll;
   options.association =
       choice<Association>("--associate", eval_associations(), arguments.associate);

@@ -28,6 +28,7 @@ struct EvalArguments {
   std::string vertical = "estimated";       ///< one of eval_verticals()
   std::string part = "space";               ///< one of eval_parts()
   std::vector<std::string> deltas;          ///< lengths of steps, as parse_delta reads them
+  std::vector<std::string> below;           ///< bounds of errors, as parse_error_bounds() reads
   bool all_pairs = false;                   ///< a step begins at every pose
   bool repeated_runs = false;               ///< the estimates are runs of one system
   std::string associate = "auto";  ///< one of eval_associations()

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <placegraph/eval/errors/error_profile.h>
 #include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/error.h>
 
 #include <algorithm>
 #include <cmath>
@@ -191,6 +194,54 @@ ErrorProfile error_profile(const std::vector<FramePair>& aligned_pairs,
   profile.worst_steps = worst_of(steps, aligned_pairs, travelled_m, has_times);
   profile.scale = scale_drift(aligned_pairs, travelled_m);
   return profile;
+}
+
+std::vector<ErrorBound> parse_error_bounds(const std::string& text) {
+  std::vector<ErrorBound> bounds;
+  for (const Delta& length : parse_deltas(text)) {
+    const bool of_rotation = length.unit == Delta::Unit::kDegrees;
+    require(of_rotation || length.unit == Delta::Unit::kMetres,
+            "'" + text + "' is no bound of errors (0.1m: position, 1deg or 0.02rad: rotation)");
+    bounds.push_back({length.value, of_rotation});
+  }
+  return bounds;
+}
+
+std::string to_string(const ErrorBound& bound) {
+  return fmt::format("{}{}", bound.value, bound.of_rotation ? "deg" : "m");
+}
+
+std::string to_string(const std::vector<ErrorBound>& bounds) {
+  std::vector<std::string> texts;
+  for (const ErrorBound& bound : bounds) texts.push_back(to_string(bound));
+  return fmt::format("{}", fmt::join(texts, ","));
+}
+
+std::vector<ShareBelow> shares_below(const std::vector<FramePair>& aligned_pairs,
+                                     const std::vector<double>& travelled_m, const ApeResult& ape,
+                                     const std::vector<ErrorBound>& bounds) {
+  std::vector<ShareBelow> shares;
+  for (const ErrorBound& bound : bounds) {
+    ShareBelow share;
+    share.bound = bound;
+    share.outcome = bound.of_rotation ? ape.rotation_outcome : ape.outcome;
+    shares.push_back(share);
+    if (!share.outcome) continue;
+    const std::vector<double>& errors =
+        bound.of_rotation ? ape.frame_errors_deg : ape.frame_errors_m;
+    bool before = false;
+    double frames = 0, path_m = 0;
+    for (std::size_t i = 0, posed = 0; i < aligned_pairs.size(); ++i) {
+      const bool below =
+          aligned_pairs[i].T_world_estimate.has_value() && errors[posed++] < bound.value;
+      frames += below;
+      if (below && before) path_m += travelled_m[i] - travelled_m[i - 1];
+      before = below;
+    }
+    shares.back().frames = frames / static_cast<double>(aligned_pairs.size());
+    if (travelled_m.back() > 0) shares.back().path = path_m / travelled_m.back();
+  }
+  return shares;
 }
 
 }  // namespace placegraph

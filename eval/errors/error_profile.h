@@ -3,6 +3,7 @@
 #include <placegraph/eval/association/frame_pair.h>
 #include <placegraph/eval/errors/relative_error.h>
 
+#include <string>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
@@ -47,5 +48,39 @@ struct ErrorProfile {
                                          const std::vector<double>& travelled_m,
                                          const ApeResult& ape, const RelativeErrors& rpe,
                                          bool has_times, double frame_rate_hz);
+
+/// A bound of the absolute errors: metres of the position, or degrees of the rotation.
+struct ErrorBound {
+  double value = 0.1;        ///< positive [m] or [deg]
+  bool of_rotation = false;  ///< the bound is one of the rotation
+
+  bool operator==(const ErrorBound&) const = default;
+};
+
+/// Reads bounds joined by commas, as "0.1m,1deg"; empty: none.
+///
+/// Throws ArgumentError if one has no such unit or is not positive.
+std::vector<ErrorBound> parse_error_bounds(const std::string& text);
+/// The bound as parse_error_bounds() reads it.
+std::string to_string(const ErrorBound& bound);
+/// Bounds joined by commas, as parse_error_bounds() reads them.
+std::string to_string(const std::vector<ErrorBound>& bounds);
+
+/// How much of the drive has errors below a bound.
+///
+/// A frame without an estimate is not below any bound, so that who loses the difficult part of a
+/// drive has no larger share.
+struct ShareBelow {
+  Outcome outcome;    ///< no success if errors of that kind are not judged
+  ErrorBound bound;   ///< the bound
+  double frames = 0;  ///< share of the judged frames
+  double path = 0;    ///< share of the true path: its steps of which both ends are below
+};
+
+/// The shares of the judged frames and of the true path with errors below each bound.
+[[nodiscard]] std::vector<ShareBelow> shares_below(const std::vector<FramePair>& aligned_pairs,
+                                                   const std::vector<double>& travelled_m,
+                                                   const ApeResult& ape,
+                                                   const std::vector<ErrorBound>& bounds);
 
 }  // namespace placegraph

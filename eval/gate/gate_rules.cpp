@@ -245,6 +245,7 @@ const std::string& default_rules_text() {
       "* | *_inclination_deg | info\n"
       "* | scale_drift* | info\n"
       "* | coverage | worse 0.01\n"
+      "* | below_* | worse 0.01\n"
       "* | judged_frames | worse 5 %\n"
       "* | * | significant else worse 5 %\n";
   return text;

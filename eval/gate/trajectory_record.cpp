@@ -55,7 +55,7 @@ std::map<std::string, std::string> options_of(const Protocol& protocol) {
 }
 
 Better better_of(const std::string& key) {
-  if (key == "coverage") return Better::kLarger;
+  if (is_share_of_drive(key)) return Better::kLarger;
   return key.starts_with("scale_drift") ? Better::kNearerZero : Better::kSmaller;
 }
 

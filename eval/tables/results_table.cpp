@@ -161,7 +161,7 @@ TableColumn column_of(const Metric& metric, const std::string& name, bool alone)
   column.name = alone ? metric.name : name;
   column.group = alone ? "" : metric.name;
   column.unit = metric.unit;
-  if (metric.key == "coverage") column.better = BetterFigure::kHigher;
+  if (is_share_of_drive(metric.key)) column.better = BetterFigure::kHigher;
   if (metric.key.starts_with("scale_drift")) column.better = BetterFigure::kNearerZero;
   return column;
 }

@@ -72,6 +72,7 @@ void judge_poses(bool has_orientation, const EvaluationOptions& options, Evaluat
   r.components = error_components(pairs, r.travelled_m, has_orientation, options.vertical);
   r.profile = error_profile(pairs, r.travelled_m, r.ape, r.rpe, r.has_times,
                             options.segments.frame_rate_hz);
+  r.below = shares_below(pairs, r.travelled_m, r.ape, options.below);
   // Of a plane, the positions of a mirrored estimate fit as well, turned over.
   if (rotation && r.alignment.rank == 2 && r.ape.rotation_deg.median > 90)
     r.warnings.push_back(fmt::format(

@@ -18,6 +18,10 @@ void visit(OptionVisitor& field, EvaluationOptions& o) {
         "largest difference of the stamps of a pair [s]", {0, 1e6});
   field("offset_s", o.time.offset_s, "offset added to the estimate's stamps [s]", {-1e12, 1e12});
   field.group("segments", o.segments, "segments of t_rel and r_rel");
+  const std::string before = to_string(o.below);
+  std::string below = before;
+  field("below", below, "bounds of errors, as 0.1m,1deg: shares of the drive below them; empty: none");
+  if (below != before) o.below = parse_error_bounds(below);
   field("intervals", o.intervals, "confidence intervals of the figures");
   field.group("relative", o.relative, "relative errors over other steps than one frame");
 }

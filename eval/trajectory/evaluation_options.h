@@ -2,6 +2,7 @@
 #include <placegraph/eval/alignment/alignment_options.h>
 #include <placegraph/eval/association/pairing.h>
 #include <placegraph/eval/errors/ape.h>
+#include <placegraph/eval/errors/error_profile.h>
 #include <placegraph/eval/errors/kitti_segments.h>
 #include <placegraph/eval/errors/relative_error.h>
 #include <placegraph/graph/core/options.h>
@@ -19,6 +20,7 @@ struct EvaluationOptions {
   AssociationOptions time;                       ///< options of the association by time
   SegmentOptions segments;                       ///< segments of t_rel and r_rel
   RelativeErrorOptions relative;                 ///< relative errors over other steps
+  std::vector<ErrorBound> below;  ///< of which the share of the drive below them is given
   bool intervals = false;  ///< confidence intervals of the figures, by the errors along the drive
   void check() const;
 };

@@ -84,7 +84,7 @@ Json interval_json(const ConfidenceInterval& interval) {
 
 /// Figures that are errors: positive, and smaller is better.
 bool is_error(const Metric& metric) {
-  return metric.key != "coverage" && !metric.key.starts_with("scale_drift");
+  return !is_share_of_drive(metric.key) && !metric.key.starts_with("scale_drift");
 }
 
 }  // namespace

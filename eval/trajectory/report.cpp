@@ -200,8 +200,9 @@ std::vector<Metric> columns(const std::vector<Metric>& all) {
         "rpe_rot_deg", "rpe_rot_median_deg", "are_rmse_deg"})
     for (const Metric& metric : all)
       if (metric.key == key) chosen.push_back(metric);
-  for (const Metric& metric : all)  // of the steps that were asked for
-    if (metric.name.find(" over ") != std::string::npos) chosen.push_back(metric);
+  for (const Metric& metric : all)  // of the steps and bounds that were asked for
+    if (metric.name.find(" over ") != std::string::npos || metric.key.starts_with("below_"))
+      chosen.push_back(metric);
   return chosen;
 }
 

@@ -111,9 +111,23 @@ std::vector<Metric> metrics(const EvaluationResult& r) {
   all.push_back({"scale_drift_percent_per_100m", "scale drift", "%/100m",
                  when(ok && r.profile.scale.outcome, r.profile.scale.percent_per_100m),
                  "slope of the scale over the path, twenty stretches"});
+  for (const ShareBelow& share : r.below) {
+    const std::string bound = to_string(share.bound);
+    const auto add = [&](const char* of, const char* protocol, std::optional<double> value) {
+      all.push_back({"below_" + bound + "_" + of, of + (" below " + bound), "", value,
+                     protocol + (", " + alignment_text(r))});
+    };
+    const bool has = ok && share.outcome;
+    add("frames", "share of the judged frames", when(has, share.frames));
+    add("path", "share of the true path", when(has && r.path_m > 0, share.path));
+  }
   all.push_back({"coverage", "coverage", "", when(ok, r.coverage),
                  "posed frames over judged frames"});
   return all;
+}
+
+bool is_share_of_drive(const std::string& key) {
+  return key == "coverage" || key.starts_with("below_");
 }
 
 std::vector<ErrorRow> error_rows(const EvaluationResult& r) {

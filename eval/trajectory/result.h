@@ -57,6 +57,7 @@ struct EvaluationResult {
   std::vector<RelativeErrors> relative;  ///< over the steps of the options, in their order
   SegmentResult segments;     ///< t_rel and r_rel
   ErrorProfile profile;       ///< where the errors lie
+  std::vector<ShareBelow> below;  ///< for the bounds of the options, in their order
   std::vector<FigureInterval> intervals;  ///< of the figures, if the options ask for them
   std::optional<OffsetEstimate> offsets;  ///< those of body and time, if they were estimated
   std::vector<std::string> warnings;     ///< one line each: a suspicious property and a remedy
@@ -73,6 +74,9 @@ struct Metric {
   std::optional<double> value;  ///< nothing if the data allow none
   std::string protocol;         ///< method of computation, one line
 };
+
+/// Whether a figure, by its key, is a share of the drive, of which more is better.
+bool is_share_of_drive(const std::string& key);
 
 /// The statistics of one kind of error of a result.
 struct ErrorRow {

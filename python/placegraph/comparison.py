@@ -169,6 +169,7 @@ def compare(
     align: str | None = None,
     deltas: str | Sequence[str] | None = None,
     all_pairs: bool = False,
+    below: str | Sequence[str] | None = None,
     times: Path | Sequence[Path] | None = None,
     options: EvaluationOptions | None = None,
 ) -> Comparison:
@@ -181,7 +182,7 @@ def compare(
     the data, and of an estimate without figures, without which there is no mean over all;
     NoResult: none has figures.
     """
-    chosen = chosen_options(options, align, deltas, all_pairs)
+    chosen = chosen_options(options, align, deltas, all_pairs, below)
     if isinstance(estimates, (str, os.PathLike)):
         folder = existing(estimates, "estimates")
         if os.path.isdir(folder) and not _core.is_run_folder(folder):

@@ -245,7 +245,8 @@ def warn_of(result: Evaluation) -> None:
 
 
 def chosen_options(options: EvaluationOptions | None, align: str | None,
-             deltas: str | Sequence[str] | None, all_pairs: bool) -> _core.OptionSet:
+             deltas: str | Sequence[str] | None, all_pairs: bool,
+             below: str | Sequence[str] | None = None) -> _core.OptionSet:
     chosen = given_or_default(options, EvaluationOptions)._set.copy()
     if align is not None:
         chosen.set("align", align)
@@ -253,6 +254,8 @@ def chosen_options(options: EvaluationOptions | None, align: str | None,
         chosen.set("relative.deltas", deltas if isinstance(deltas, str) else ",".join(deltas))
     if all_pairs:
         chosen.set("relative.pairs", "all")
+    if below is not None:
+        chosen.set("below", below if isinstance(below, str) else ",".join(below))
     return chosen
 
 
@@ -263,6 +266,7 @@ def evaluate(
     align: str | None = None,
     deltas: str | Sequence[str] | None = None,
     all_pairs: bool = False,
+    below: str | Sequence[str] | None = None,
     name: str | None = None,
     times: Path | Sequence[Path] | None = None,
     options: EvaluationOptions | None = None,
@@ -273,11 +277,13 @@ def evaluate(
     Trajectory, the file of one, a Map, or the output folder of a run. `align`: 'none', 'origin',
     'se3' (the default), 'sim3', 'scale' or 'yaw'; it takes precedence over that of `options`.
     `deltas`: lengths of steps of further relative errors, as '1s', '10f', '5m' or '10deg'; with
-    `all_pairs` a step begins at every pose. `times`: file of times for trajectories without, or
-    two, for truth and estimate. Warns with Doubt of what
-    is suspicious in the data. NoResult: the data allow no figures.
+    `all_pairs` a step begins at every pose. `below`: bounds of errors, as '0.1m' or '1deg', for the
+    shares of the drive below them ("below_0.1m_frames", "below_0.1m_path"). `times`: file of
+    times for trajectories without, or two, for truth and estimate. Warns with Doubt of what is
+    suspicious in the data. NoResult: the data allow no figures.
     """
-    result = evaluated(truth, estimate, name, times, chosen_options(options, align, deltas, all_pairs))
+    chosen = chosen_options(options, align, deltas, all_pairs, below)
+    result = evaluated(truth, estimate, name, times, chosen)
     warn_of(result)
     if not result.ok:
         raise _core.NoResult(f"{result.name}: {result.reason}")

@@ -156,6 +156,7 @@ def record(
     align: str | None = None,
     deltas: str | Sequence[str] | None = None,
     all_pairs: bool = False,
+    below: str | Sequence[str] | None = None,
     times: Path | Sequence[Path] | None = None,
     options: EvaluationOptions | None = None,
 ) -> Record:
@@ -166,7 +167,7 @@ def record(
     `evaluate`. A run that the data allow no figure is a failed run of the record. Warns with Doubt
     of what is suspicious in the data.
     """
-    chosen = chosen_options(options, align, deltas, all_pairs)
+    chosen = chosen_options(options, align, deltas, all_pairs, below)
     both = [read_both(truth, each, run, times, chosen) for run, each in named_estimates(runs)]
     judged = [Evaluation(_core.evaluate_trajectory(*each[:2], chosen, each[2])) for each in both]
     for each in judged:

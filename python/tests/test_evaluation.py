@@ -117,6 +117,32 @@ def test_relative_errors_over_steps_are_those_of_numpy() -> None:
         pg.evaluate(trajectory(truth), trajectory(estimate), deltas="0s")
 
 
+def test_shares_below_bounds_and_parts_of_rotations_are_those_of_numpy() -> None:
+    truth, estimate = motion()
+    options = pg.EvaluationOptions(vertical="z")
+    result = pg.evaluate(trajectory(truth), trajectory(estimate), options=options,
+                         below=["0.2m", "1deg"])
+    errors = result.frames["error_m"].to_numpy()
+    assert result["below_0.2m_frames"] == pytest.approx((errors < 0.2).mean(), abs=1e-12)
+    below = errors < 0.2
+    steps = np.linalg.norm(np.diff(truth[:, :3, 3], axis=0), axis=1)
+    share = steps[below[1:] & below[:-1]].sum() / steps.sum()
+    assert result["below_0.2m_path"] == pytest.approx(share, abs=1e-9)
+    assert result["below_1deg_frames"] == (result.frames["error_deg"] < 1).mean()
+    with pytest.raises(pg.ArgumentError, match="no bound of errors"):
+        pg.evaluate(trajectory(truth), trajectory(estimate), below="1s")
+    pairs = [(i, i + 1) for i in range(len(truth) - 1)]
+    error = relative(truth, estimate, pairs)[:, :3, :3]
+    in_world = truth[1:, :3, :3] @ error @ np.linalg.inv(truth[1:, :3, :3])
+    inclination = np.degrees(np.arccos(np.clip(in_world[:, 2, 2], -1, 1)))
+    table = result.steps()
+    np.testing.assert_allclose(table["inclination_deg"], inclination, atol=1e-5)
+    half = np.arctan2(in_world[:, 1, 0] - in_world[:, 0, 1], in_world[:, 0, 0] + in_world[:, 1, 1])
+    np.testing.assert_allclose(table["heading_deg"], np.degrees(np.abs(half)), atol=1e-6)
+    assert result.rpe_heading_deg is not None
+    assert result.rpe_heading_deg.rmse == pytest.approx(result["rpe_heading_deg"])
+
+
 def test_rotation_errors_and_components_are_those_of_numpy() -> None:
     truth, estimate = motion()
     result = pg.evaluate(trajectory(truth), trajectory(estimate), align="sim3")

@@ -175,7 +175,8 @@ std::vector<CLI::App*> all_commands(CLI::App& app) {
 // is a kOutput or a kInput, or checked to exist.
 TEST_F(CommandLine, EveryTextIsAnOutputAnInputOrAWord) {
   const std::set<std::string> words = {
-      "--align-frames", "--align-seconds", "--apply", "--apply-truth", "--delta", "--figures",
+      "--align-frames", "--align-seconds", "--apply", "--apply-truth", "--below", "--delta",
+      "--figures",
       "--name",      "--sequences",    "--split",     "--system",
       "--blind",     "--clock-offset", "--cues",      "--defects", "--dictionary",  "--difficulty",
       "--elements",  "--gravity",      "--holdout",   "--normal",  "--lever-arm",   "--origin",

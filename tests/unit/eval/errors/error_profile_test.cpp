@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 #include <placegraph/eval/trajectory/evaluate.h>
 #include <placegraph/graph/core/angle.h>
+#include <placegraph/graph/core/error.h>
+
+#include <algorithm>
 
 #include "tests/support/trajectories.h"
 
@@ -140,6 +143,84 @@ TEST(ErrorProfile, GroupsCoverEveryFrameOnce) {
     EXPECT_GE(groups.size(), 3u);
     EXPECT_LE(groups.size(), 12u);
   }
+}
+
+/// The shares below bounds by the definition, frame by frame.
+void expect_shares(const EvaluationResult& result, const ShareBelow& share) {
+  std::vector<bool> below;
+  for (const FramePair& pair : result.aligned_pairs) {
+    bool is_below = pair.T_world_estimate.has_value();
+    if (is_below) {
+      const Eigen::Isometry3d error = pair.T_world_truth.inverse() * *pair.T_world_estimate;
+      const double value = share.bound.of_rotation ? rad_to_deg(rotation_angle(error.linear()))
+                                                   : error.translation().norm();
+      is_below = value < share.bound.value;
+    }
+    below.push_back(is_below);
+  }
+  double path_m = 0;
+  for (std::size_t i = 1; i < below.size(); ++i)
+    if (below[i - 1] && below[i]) path_m += result.travelled_m[i] - result.travelled_m[i - 1];
+  const auto count = static_cast<double>(std::ranges::count(below, true));
+  EXPECT_NEAR(share.frames, count / static_cast<double>(result.judged), 1e-12);
+  EXPECT_NEAR(share.path, path_m / result.path_m, 1e-12);
+}
+
+TEST(SharesBelow, CountWhatIsMissingAsNotBelow) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    const Trajectory truth = test::winding_drive(400);
+    Trajectory estimate = test::drifting(truth, 0.02, 0.001, random);
+    for (StampedPose& pose : estimate.poses)
+      if (random.uniform(0, 1) < 0.1) pose.T_world_body.reset();
+    EvaluationOptions options;
+    options.below = parse_error_bounds("0.05m,0.2m,1m,100m,0.5deg,179deg");
+    const EvaluationResult result = evaluate(truth, estimate, options);
+    ASSERT_EQ(result.below.size(), 6u);
+    for (const ShareBelow& share : result.below) {
+      ASSERT_TRUE(share.outcome);
+      expect_shares(result, share);
+      EXPECT_LE(share.path, share.frames + 2.0 / 400);  // a lost frame takes both of its steps
+    }
+    for (int k = 1; k < 4; ++k) {  // a larger bound has no smaller share
+      EXPECT_LE(result.below[std::size_t(k - 1)].frames, result.below[std::size_t(k)].frames);
+      EXPECT_LE(result.below[std::size_t(k - 1)].path, result.below[std::size_t(k)].path);
+    }
+    EXPECT_DOUBLE_EQ(result.below[3].frames, result.coverage);
+    EXPECT_DOUBLE_EQ(result.below[5].frames, result.coverage);
+  }
+}
+
+TEST(SharesBelow, AreOfAKnownHalf) {
+  // The second half is 1 m off: with a missing frame in the first, 49 of 100 are below.
+  const Trajectory truth = circle(100);
+  Trajectory estimate = truth;
+  for (std::size_t i = 50; i < 100; ++i) estimate.poses[i].T_world_body->translation().y() += 1;
+  estimate.poses[20].T_world_body.reset();
+  EvaluationOptions options = unaligned();
+  options.below = parse_error_bounds("0.5m,0.02rad");
+  const EvaluationResult result = evaluate(truth, estimate, options);
+  EXPECT_DOUBLE_EQ(result.below[0].frames, 0.49);
+  EXPECT_NEAR(result.below[0].path, 47.0 / 99, 1e-12);
+  EXPECT_DOUBLE_EQ(result.below[1].frames, 0.99);
+  const std::vector<Metric> figures = metrics(result);
+  const auto share = std::ranges::find(figures, "below_0.5m_frames", &Metric::key);
+  ASSERT_NE(share, figures.end());
+  EXPECT_EQ(share->value, 0.49);
+  EXPECT_EQ(parse_error_bounds(to_string(options.below)), options.below);
+}
+
+TEST(SharesBelow, OfOrientationsNeedThem) {
+  Trajectory truth = circle(100);
+  truth.has_orientation = false;
+  EvaluationOptions options;
+  options.below = parse_error_bounds("0.5m,1deg");
+  const EvaluationResult result = evaluate(truth, truth, options);
+  EXPECT_TRUE(result.below[0].outcome);
+  EXPECT_FALSE(result.below[1].outcome);
+  for (const char* wrong : {"1s", "10f", "5", "0m", "-1deg", "m", "1m,,2m"})
+    EXPECT_THROW((void)parse_error_bounds(wrong), ArgumentError) << wrong;
 }
 
 TEST(ScaleDrift, IsTheSlopeOfTheScale) {
