@@ -84,6 +84,12 @@ ApeResult ape(const std::vector<FramePair>& aligned_pairs, const ErrorProjection
   result.rotation_outcome = rotation;
   const bool whole = part.text.empty();
   std::vector<double> full;
+  result.frames.reserve(aligned_pairs.size());
+  result.frame_errors_m.reserve(aligned_pairs.size());
+  if (rotation) {
+    result.frame_errors_deg.reserve(aligned_pairs.size());
+    full.reserve(aligned_pairs.size());
+  }
   for (const FramePair& pair : aligned_pairs) {
     if (!pair.T_world_estimate) continue;
     const Eigen::Vector3d error_m =

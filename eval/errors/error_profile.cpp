@@ -163,6 +163,9 @@ ErrorProfile error_profile(const std::vector<FramePair>& aligned_pairs,
   ErrorProfile profile;
   std::vector<FrameErrors> frames;
   std::vector<PlacedError> positions, steps;
+  frames.reserve(aligned_pairs.size());
+  positions.reserve(ape.frames.size());
+  steps.reserve(rpe.errors.size());
   auto step = rpe.errors.begin();
   for (std::size_t i = 0, posed = 0; i < aligned_pairs.size(); ++i) {
     const FramePair& pair = aligned_pairs[i];

@@ -15,10 +15,12 @@ double acos_of_trace(const Eigen::Matrix3d& R) {
   return std::acos(std::clamp(0.5 * (R.trace() - 1.0), -1.0, 1.0));
 }
 
-SegmentError error_between(const FramePair& first, const FramePair& last, double length_m) {
+SegmentError error_between(const FramePair& first, const FramePair& last, double length_m,
+                           double scale) {
   const Eigen::Matrix4d T_first_last_truth = relative_pose(first.T_world_truth, last.T_world_truth);
-  const Eigen::Matrix4d T_first_last_estimate =
+  Eigen::Matrix4d T_first_last_estimate =
       relative_pose(*first.T_world_estimate, *last.T_world_estimate);
+  T_first_last_estimate.topRightCorner<3, 1>() *= scale;
   const Eigen::Matrix4d error = T_first_last_estimate.inverse() * T_first_last_truth;
   SegmentError segment;
   segment.first_frame = first.frame;
@@ -93,7 +95,7 @@ std::vector<SegmentGroup> group_by_speed(const std::vector<SegmentError>& segmen
 }
 
 SegmentResult kitti_segments(const std::vector<FramePair>& pairs, bool has_times,
-                             const SegmentOptions& options) {
+                             const SegmentOptions& options, double scale) {
   options.check();
   SegmentResult result;
   const std::vector<double> distance_m = travelled_m(pairs);
@@ -108,7 +110,7 @@ SegmentResult kitti_segments(const std::vector<FramePair>& pairs, bool has_times
         ++result.skipped;
         continue;
       }
-      SegmentError segment = error_between(first, last, length_m);
+      SegmentError segment = error_between(first, last, length_m, scale);
       const double seconds = has_times ? static_cast<double>(last.stamp_ns - first.stamp_ns) * 1e-9
                                        : (last.frame - first.frame) / options.frame_rate_hz;
       segment.speed_m_per_s = length_m / seconds;

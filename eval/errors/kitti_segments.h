@@ -51,10 +51,10 @@ struct SegmentResult {
 /// metres of true path behind i, and E = (T_i^-1 T_j)_estimate^-1 (T_i^-1 T_j)_truth yields |trans
 /// E| / L and acos((tr R - 1) / 2) / L. Every segment has the same weight, independent of its
 /// length. Outcome: kTooFewData if the path is too short for every length, or all segments were
-/// skipped. `has_times` says whether stamp_ns are times or only indices. Throws ArgumentError for
-/// options that check() refuses.
+/// skipped. `has_times` says whether stamp_ns are times or only indices. Positions of the estimate
+/// are multiplied by `scale`. Throws ArgumentError for options that check() refuses.
 [[nodiscard]] SegmentResult kitti_segments(const std::vector<FramePair>& pairs, bool has_times,
-                                           const SegmentOptions& options);
+                                           const SegmentOptions& options, double scale = 1);
 
 /// Means of the segments of each nominal length, by ascending length.
 std::vector<SegmentGroup> group_by_length(const std::vector<SegmentError>& segments);

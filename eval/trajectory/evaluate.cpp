@@ -22,12 +22,6 @@ void align_estimates(const AlignmentResult& alignment, std::vector<FramePair>& p
     if (pair.T_world_estimate) pair.T_world_estimate = alignment.apply(*pair.T_world_estimate);
 }
 
-std::vector<FramePair> scaled(double scale, std::vector<FramePair> pairs) {
-  for (FramePair& pair : pairs)
-    if (pair.T_world_estimate) pair.T_world_estimate->translation() *= scale;
-  return pairs;
-}
-
 Outcome needs_orientation(const char* what) {
   return Outcome::failure(Outcome::Code::kTooFewData,
                           std::string(what) + " needs orientations, but there are positions alone");
@@ -44,8 +38,7 @@ void judge_motions(const std::vector<FramePair>& pairs, bool has_times,
   for (const Delta& delta : options.relative.deltas)
     r.relative.push_back(
         relative_errors(pairs, has_times, delta, options.relative.pairs, scale, up));
-  r.segments = scale == 1 ? kitti_segments(pairs, has_times, options.segments)
-                          : kitti_segments(scaled(scale, pairs), has_times, options.segments);
+  r.segments = kitti_segments(pairs, has_times, options.segments, scale);
 }
 
 /// The same without orientations: nothing.

@@ -56,6 +56,11 @@ TextFile::TextFile(std::string path) : path_(std::move(path)), text_(read_whole(
   rewind();
 }
 
+std::size_t TextFile::lines_left() const {
+  const auto begin = text_.begin() + static_cast<std::ptrdiff_t>(std::min(position_, text_.size()));
+  return 1 + static_cast<std::size_t>(std::count(begin, text_.end(), '\n'));
+}
+
 bool TextFile::next(std::string_view& line) {
   check_interruption();
   if (position_ >= text_.size()) return false;

@@ -34,6 +34,7 @@ class TextFile {
 
   std::size_t size() const { return text_.size(); }   ///< of the text [bytes]
   std::size_t position() const { return position_; }  ///< begin of the next line [bytes]
+  std::size_t lines_left() const;                     ///< from there on, at most
   int line() const { return line_; }  ///< number of the last line, from 1; 0 before the first
   const std::string& path() const { return path_; }
   /// Throws FileError "path:line: message" for the last line.

@@ -35,7 +35,11 @@ class Reader {
     if (line.T_world_body && !line.oriented && table_.columns().quaternion && !first_bare_line_)
       first_bare_line_ = table_.file().line();
     oriented_ += line.T_world_body && line.oriented;
-    if (index == 0) first_line_ = table_.file().line();
+    if (index == 0) {
+      first_line_ = table_.file().line();
+      // Growing would hold the poses twice.
+      trajectory_.poses.reserve(1 + table_.file().lines_left());
+    }
     trajectory_.poses.push_back({stamp, line.T_world_body});
   }
 
