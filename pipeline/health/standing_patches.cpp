@@ -68,13 +68,12 @@ void StandingPatches::compare(const Image& image, const Image& mask) {
       (stands(image, *cell.patch) ? standing : moved).push_back(&cell);
   // A cell whose patch moved waits until it is taken again: so many cells are in motion.
   const auto in_motion = static_cast<double>(kInterleaved * moved.size());
-  const bool moving =
-      moved.size() >= kFewest &&
-      in_motion >= kMovingShare * (in_motion + static_cast<double>(standing.size()));
-  for (Cell* cell : standing) cell->patch->stood += moving;
+  moving_ = moved.size() >= kFewest &&
+            in_motion >= kMovingShare * (in_motion + static_cast<double>(standing.size()));
+  for (Cell* cell : standing) cell->patch->stood += moving_;
   for (Cell* cell : moved) {
     cell->patch.reset();
-    if (moving) cell->moved = std::min(cell->moved + 1, kMostExcused);
+    if (moving_) cell->moved = std::min(cell->moved + 1, kMostExcused);
   }
   for (int c = comparisons_ % kInterleaved; c < static_cast<int>(cells_.size());
        c += kInterleaved) {

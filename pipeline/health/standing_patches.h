@@ -42,6 +42,8 @@ class StandingPatches {
   /// Judges the patches that have stood still since a comparison by the motion since then; returns
   /// whether it speaks against some of them.
   bool judge(const ImageMotion& motion, int since);
+  /// Whether patches elsewhere moved at the last comparison, so that the camera does.
+  bool moving() const { return moving_; }
   /// Number of comparisons so far.
   int comparisons() const { return comparisons_; }
   /// Pixels that no patch covers which has stood still for a while (CV_8UC1, 255; 0 elsewhere).
@@ -87,6 +89,7 @@ class StandingPatches {
   int width_, height_, half_;  // [px]; half the side of a patch
   std::vector<Cell> cells_;
   int comparisons_ = 0;
+  bool moving_ = false;
 };
 
 }  // namespace placegraph

@@ -13,6 +13,9 @@ constexpr double kMinMotion_px = 8;
 // Number of frames from one comparison of the patches to the next. Chosen.
 constexpr int kInterval = 2;
 
+/// Growth of the mask that is worth a restart. Chosen.
+constexpr double kGrown = 1.2;
+
 /// A region that is larger could be the world, seen by a camera at rest in front of a moving
 /// object.
 constexpr double kLargestShare = 0.6;
@@ -60,11 +63,25 @@ bool StaticOverlay::add(const Frame& frame) {
   if (!compares) return false;
   const Image used = both_masks(frame.mask, mask_);
   patches_.compare(frame.image, used);
-  if (!px_ref_.empty()) return go_on(frame, used);
-  if (!patches_.suspects() || patches_.comparisons() < next_) return false;
+  const bool spots = patches_.moving() && watch_spots(frame.image, used);
+  if (!px_ref_.empty()) return go_on(frame, used) || spots;
+  if (!patches_.suspects() || patches_.comparisons() < next_) return spots;
   track(frame);
   begin(used);
-  return false;
+  return spots;
+}
+
+/// Adds an image of the moving camera, of which `used` is not masked yet; returns whether the mask
+/// has grown.
+bool StaticOverlay::watch_spots(const Image& image, const Image& used) {
+  spots_.add(image);
+  if (spots_.images() < next_spots_) return false;
+  next_spots_ *= 2;
+  Image region = spots_.region();
+  if (region.empty()) return false;
+  const int masked = used.empty() ? 0 : static_cast<int>(used.total()) - area_px(used);
+  if (!used.empty()) region &= used;
+  return area_px(region) > (kGrown - 1) * masked && cover(region);
 }
 
 /// Goes on with an episode after a comparison; returns whether the mask has grown.
@@ -121,8 +138,7 @@ bool StaticOverlay::judge(FrameId frame) {
 /// The region is taken once it grows no more: a mask of a part of an overlay would leave the rest
 /// to the map.
 bool StaticOverlay::take_region() {
-  // Growth of a region that is settled, and growth of the mask that is worth a restart. Chosen.
-  constexpr double kSettled = 1.1, kGrown = 1.2;
+  constexpr double kSettled = 1.1;  // growth of a region that is settled; chosen
   Image region = patches_.proven_cells();
   const int cells = area_px(region), before = last_cells_;
   last_cells_ = cells;
@@ -131,6 +147,11 @@ bool StaticOverlay::take_region() {
   const cv::Size cell(camera_.width / StandingPatches::kColumns,
                       camera_.height / StandingPatches::kRows);
   cv::dilate(region, region, cv::getStructuringElement(cv::MORPH_RECT, cell));
+  return cover(region);
+}
+
+/// Adds a region to the mask, if it is worth a restart; returns whether it is.
+bool StaticOverlay::cover(const Image& region) {
   const Image mask = both_masks(mask_, 255 - region);
   const int pixels = camera_.width * camera_.height;
   const int masked = pixels - area_px(mask);

@@ -3,6 +3,7 @@
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/pipeline/cues/frame_view.h>
+#include <placegraph/pipeline/health/lens_spots.h>
 #include <placegraph/pipeline/health/standing_patches.h>
 #include <placegraph/pipeline/health/static_overlay_options.h>
 
@@ -18,6 +19,7 @@ namespace placegraph {
 /// Patches that stand still are watched at next to no cost (StandingPatches). Only when some of
 /// them have stood still for long while others moved, points elsewhere are tracked until most have
 /// moved: their motion says by how much every point of the world must have moved (ImageMotion).
+/// Spots through which the world is seen are found by their darkness (LensSpots).
 class StaticOverlay {
  public:
   /// `camera`: that of the (left) images.
@@ -38,7 +40,8 @@ class StaticOverlay {
   int tracked_images() const { return tracked_images_; }
   /// An episode in progress is not part of the state: another one begins.
   void visit_state(auto& archive) {
-    archive(patches_, mask_, frames_, last_cells_, without_result_, next_, tracked_images_);
+    archive(patches_, mask_, frames_, last_cells_, without_result_, next_, tracked_images_, spots_,
+            next_spots_);
   }
 
  private:
@@ -47,6 +50,8 @@ class StaticOverlay {
   void begin(const Image& mask);
   bool judge(FrameId frame);
   bool take_region();
+  bool watch_spots(const Image& image, const Image& used);
+  bool cover(const Image& region);
   Image reduced(const Image& image, int interpolation) const;
   Eigen::Vector2d full(const Eigen::Vector2f& px) const;
   double moved_px(const PointTrack& track) const;
@@ -55,6 +60,8 @@ class StaticOverlay {
   Camera camera_;
   std::uint64_t seed_;
   StandingPatches patches_;
+  LensSpots spots_;
+  int next_spots_ = 30;  // images of spots at which they are judged, then twice as many
   Image mask_;
   int frames_ = 0;
   int last_cells_ = 0;  // in the region at the last episode

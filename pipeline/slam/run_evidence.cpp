@@ -6,7 +6,7 @@ namespace placegraph {
 namespace {
 
 /// Version of the bytes; another one cannot be read.
-constexpr std::uint8_t kEvidenceVersion = 2;
+constexpr std::uint8_t kEvidenceVersion = 3;
 
 void visit_sources(auto& archive, const RunEvidence& sources) {
   archive(sources.environments, sources.odometry, sources.links, sources.health,
