@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
-#include <placegraph/pipeline/health/static_overlay.h>
+#include <placegraph/pipeline/overlays/static_overlay.h>
 #include <placegraph/pipeline/run_mask.h>
 
 #include <opencv2/core.hpp>

@@ -3,7 +3,7 @@
 #include <placegraph/frontend/places/cues/place_cue_options.h>
 #include <placegraph/frontend/scene/scene_options.h>
 #include <placegraph/graph/core/options.h>
-#include <placegraph/pipeline/health/static_overlay_options.h>
+#include <placegraph/pipeline/overlays/static_overlay_options.h>
 #include <placegraph/pipeline/loops/loop_options.h>
 #include <placegraph/pipeline/places/place_options.h>
 #include <placegraph/pipeline/tracking/odometry_options.h>

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/ids.h>
 #include <placegraph/pipeline/health/contradicted_steps.h>
 #include <placegraph/pipeline/health/health_monitor.h>
-#include <placegraph/pipeline/health/static_overlay.h>
+#include <placegraph/pipeline/overlays/static_overlay.h>
 #include <placegraph/pipeline/odometry/odometry.h>
 #include <placegraph/pipeline/slam/environment_monitor.h>
 #include <placegraph/pipeline/slam/link_feed.h>

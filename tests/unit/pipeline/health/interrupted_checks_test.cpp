@@ -7,7 +7,7 @@
 #include <placegraph/pipeline/health/intrinsics_check.h>
 #include <placegraph/pipeline/health/repeated_images.h>
 #include <placegraph/pipeline/health/right_image_time.h>
-#include <placegraph/pipeline/health/standing_patches.h>
+#include <placegraph/pipeline/overlays/standing_patches.h>
 #include <placegraph/pipeline/health/window_residuals.h>
 #include <placegraph/pipeline/scale/scale_check.h>
 

@@ -1,5 +1,5 @@
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/health/standing_patches.h>
+#include <placegraph/pipeline/overlays/standing_patches.h>
 
 #include <opencv2/imgproc.hpp>
 

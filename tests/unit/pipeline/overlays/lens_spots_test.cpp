@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/pipeline/health/lens_spots.h>
+#include <placegraph/pipeline/overlays/lens_spots.h>
 
 #include <opencv2/imgproc.hpp>
 #include <vector>

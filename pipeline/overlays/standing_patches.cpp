@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/health/standing_patches.h>
+#include <placegraph/pipeline/overlays/standing_patches.h>
 
 #include <algorithm>
 #include <cmath>

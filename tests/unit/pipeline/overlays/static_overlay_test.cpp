@@ -1,6 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <placegraph/pipeline/health/static_overlay.h>
+#include <placegraph/pipeline/overlays/static_overlay.h>
 #include <placegraph/pipeline/run.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/pipeline/health/static_overlay.h>
+#include <placegraph/pipeline/overlays/static_overlay.h>
 
 #include <algorithm>
 #include <cmath>

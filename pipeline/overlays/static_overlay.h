@@ -3,9 +3,9 @@
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/measurements/data_note.h>
 #include <placegraph/pipeline/cues/frame_view.h>
-#include <placegraph/pipeline/health/lens_spots.h>
-#include <placegraph/pipeline/health/standing_patches.h>
-#include <placegraph/pipeline/health/static_overlay_options.h>
+#include <placegraph/pipeline/overlays/lens_spots.h>
+#include <placegraph/pipeline/overlays/standing_patches.h>
+#include <placegraph/pipeline/overlays/static_overlay_options.h>
 
 #include <map>
 #include <optional>

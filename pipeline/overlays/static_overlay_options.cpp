@@ -1,4 +1,4 @@
-#include <placegraph/pipeline/health/static_overlay_options.h>
+#include <placegraph/pipeline/overlays/static_overlay_options.h>
 
 namespace placegraph {
 

@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/pipeline/health/lens_spots.h>
+#include <placegraph/pipeline/overlays/lens_spots.h>
 
 #include <algorithm>
 #include <array>
