@@ -9,6 +9,7 @@ import matplotlib.pyplot
 import numpy as np
 import pandas
 import pytest
+from numpy.typing import NDArray
 
 import placegraph as pg
 from placegraph import loops
@@ -134,9 +135,9 @@ def test_match_finds_the_nearest_older_image_of_each() -> None:
     noise = random.integers(0, 20, (20, 24, 32, 3), dtype=np.uint8)
     images = [*places, *(places // 2 + noise)]
 
-    def describe(image: np.ndarray) -> np.ndarray:
-        values = image.astype(float).ravel()
-        return values - values.mean()
+    def describe(image: NDArray[np.uint8]) -> NDArray[np.float64]:
+        values = image.astype(np.float64).ravel()
+        return np.asarray(values - values.mean())
 
     found = loops.match(iter(images), describe, min_age=20)
     assert found["query"].tolist() == list(range(20, 40))

@@ -138,8 +138,8 @@ def test_what_is_no_vector_is_an_error(world: World, loop: Frames, describe: Any
 
 
 def test_descriptors_of_a_file_are_those_of_the_frames(tmp_path: pathlib.Path) -> None:
-    dataset = pg.synthetic.render("corridor-loop", tmp_path / "drive", frames=12, size=(240, 180))
-    rows = np.random.default_rng(1).normal(size=(12, 8)).astype(np.float32)
+    dataset = pg.synthetic.render("corridor-loop", tmp_path / "drive", frames=40, size=(240, 180))
+    rows = np.random.default_rng(1).normal(size=(40, 8)).astype(np.float32)
     np.save(tmp_path / "rows.npy", rows)
     options = pg.RunOptions()
     options.loops.min_frame_gap = 5
