@@ -12,6 +12,7 @@
 #include <placegraph/pipeline/cues/frame_view.h>
 #include <placegraph/pipeline/frame_reader.h>
 #include <placegraph/pipeline/learned_images.h>
+#include <placegraph/pipeline/recognizers/image_recognizer.h>
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/save_schedule.h>
 #include <placegraph/pipeline/slam/run_evidence.h>
@@ -172,6 +173,15 @@ void take_saved(StoredMap stored, RunResult& result) {
   result.map = std::move(stored.map);
 }
 
+/// A run that began with a recognizer goes on with one.
+void check_recognizer(const StoredMap& stored, const RunInputs& inputs) {
+  RunOptions begun;
+  const std::string& path = inputs.map_file->path;
+  if (stored.finished || stored.origin.options.empty()) return;
+  read_options_text(path, stored.origin.options, begun);
+  require_recognizer_again(begun.describer, path, inputs.recognizer != nullptr);
+}
+
 /// A run over a sequence, with the file in which it saves its map.
 class SequenceRun {
  public:
@@ -192,6 +202,7 @@ class SequenceRun {
     StoredMap stored;
     if (inputs_.map_file && inputs_.map_file->resume) {
       stored = read_map(interrupted_map_path(inputs_.map_file->path));
+      check_recognizer(stored, inputs_);
       images_.take_up(stored.origin);
       earlier_stages_ = stored.run.stages;
       if (stored.finished) {
@@ -296,7 +307,8 @@ class SequenceRun {
     require(last >= begin_ && last < end_,
             inputs_.map_file->path + ": its last keyframe is frame " + std::to_string(last) +
                 ", which is not in the sequence");
-    slam.resume(stored.map, stored.history, reader.read(last));
+    const auto at = [&](FrameId id) { return reader.read(static_cast<std::size_t>(id.value())); };
+    slam.resume(stored.map, stored.history, reader.read(last), at);
     result_.resumed_at = FrameId(last + 1);
     return last + 1;
   }
@@ -326,7 +338,11 @@ class SequenceRun {
 
 RunResult run_sequence(const Dataset& dataset, const RunOptions& options, const RunInputs& inputs) {
   options.check();
-  return SequenceRun(dataset, options, inputs).run();
+  RunOptions named = options;
+  std::string& recognizer = named.describer.recognizer;
+  if (!inputs.recognizer) require_no_recognizer(options.describer, "options");
+  if (inputs.recognizer && recognizer.empty()) recognizer = "one of the calling program";
+  return SequenceRun(dataset, named, inputs).run();
 }
 
 }  // namespace placegraph

@@ -93,7 +93,8 @@ struct RunInputs {
   /// Trained model that labels surfaces; required if `semantics` or `context` is enabled.
   std::shared_ptr<const SceneModel> surfaces = nullptr;
   /// Place recognizer of the caller's own, see SlamInputs::recognizer. It is cleared at each start
-  /// of the run.
+  /// of the run, and gets the images of the keyframes again if a run is resumed. The map records
+  /// DescriberOptions::recognizer as its name; a run that began with one is resumed with one.
   std::shared_ptr<PlaceRetrieval> recognizer = nullptr;
   /// File in which the map is saved, or from which the run resumes: the frames up to the last
   /// committed place are then read from the file.

@@ -46,6 +46,7 @@ void visit(OptionVisitor& field, SceneOptions& o) {
 
 void RunOptions::check() const {
   check_ranges(*this);
+  describer.check();
   slam.check();
 }
 
@@ -67,6 +68,7 @@ void visit(OptionVisitor& field, RunOptions& o) {
   field.group("motion", o.motion, "motion measured by other sensors");
   field.group("lens", o.lens, "self-calibration of a monocular camera's radial distortion");
   field.group("scene", o.scene, "scene models built from the finished map");
+  field.group("describer", o.describer, "recognizer of loop candidates that is not the library's");
   visit(field, o.slam);
 }
 

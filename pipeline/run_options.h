@@ -1,4 +1,5 @@
 #pragma once
+#include <placegraph/frontend/places/recognition_options.h>
 #include <placegraph/graph/core/options.h>
 #include <placegraph/graph/measurements/measured_motion.h>
 #include <placegraph/pipeline/scene/scene_map_options.h>
@@ -68,7 +69,8 @@ struct RunOptions {
   MotionOptions motion;  ///< motion measured by other sensors
   LensOptions lens;      ///< self-calibration of radial distortion
   SceneOptions scene;    ///< used by `placegraph run` on the finished map, not by run_sequence
-  SlamOptions slam;      ///< options of the SLAM system
+  DescriberOptions describer;  ///< recognizer whose candidates are those of loops
+  SlamOptions slam;            ///< options of the SLAM system
   void check() const;
 };
 

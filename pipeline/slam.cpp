@@ -63,7 +63,7 @@ struct Slam::Impl {
   }
   void close_loops(FrameResult& result);
   void optimized(const IncrementalStep& step);
-  void take_up(const Map& map, const PlaceHistory& history, const Frame& last);
+  void take_up(const Map& map, const PlaceHistory& history, const Frame& last, const FrameOf& of);
   RunEvidence learned() { return {odometry, links, health, contradicted, environments, overlay}; }
   std::optional<FrameId> newest_counted() const {
     return recorder.empty() ? counted : std::max(counted, std::optional(recorder.newest().frame));
@@ -123,8 +123,8 @@ MapChanges Slam::take_changes() {
   if (impl_->finished) changes.run.notes = notes(), changes.run.odometry_error = odometry_error();
   return changes;
 }
-void Slam::resume(const Map& map, const PlaceHistory& history, const Frame& last) {
-  impl_->perform([&] { impl_->take_up(map, history, last); });
+void Slam::resume(const Map& map, const PlaceHistory& past, const Frame& last, const FrameOf& of) {
+  impl_->perform([&] { impl_->take_up(map, past, last, of); });
 }
 Map Slam::snapshot() const {
   impl_->require_whole();
@@ -374,14 +374,14 @@ void Slam::Impl::optimized(const IncrementalStep& step) {
   events.places_changed(mapper);
 }
 
-void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Frame& last) {
-  require(!closer.has_recognizer(), "Slam::resume: the recognizer lacks the images of the map");
+void Slam::Impl::take_up(const Map& map, const PlaceHistory& history, const Frame& last,
+                         const FrameOf& of) {
   require(recorder.empty() && !finished, "Slam::resume: after the first frame");
   require(!map.keyframes.empty() && map.keyframes.back().frame == last.id,
           "Slam::resume: the frame is not that of the last keyframe");
   check_frame(last);
   PlaceMapper known_places(options.places, options.pose_graph, map.place_graph.places, history);
-  closer = LoopCloser(options.loops, calibration, options.seed, map);
+  closer = LoopCloser(options.loops, calibration, options.seed, map, closer.recognizer(), of);
   mapper = std::move(known_places);
   recorder.take_up(map, last.id, map.main_component());
   feed.take_up(map, closer);

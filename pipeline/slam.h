@@ -2,9 +2,10 @@
 #include <placegraph/graph/core/log.h>
 #include <placegraph/graph/image/frame.h>
 #include <placegraph/graph/map.h>
-#include <placegraph/pipeline/tracking/frame_result.h>
 #include <placegraph/pipeline/slam_options.h>
+#include <placegraph/pipeline/tracking/frame_result.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -34,7 +35,7 @@ struct SlamInputs {
   std::shared_ptr<const SceneModel> surfaces = nullptr;
   /// Place recognizer of the caller's own (frontend/places/place_recognizer.h), which finds the
   /// candidates of loops and of relocalization instead of visual words. LoopRecord::similarity is
-  /// then its score, and LoopOptions::min_similarity is not used. Such a run cannot be resumed.
+  /// then its score, and LoopOptions::min_similarity is not used.
   std::shared_ptr<PlaceRetrieval> recognizer = nullptr;
   /// Listener for events; not owned, must outlive the Slam object.
   SlamEvents* events = nullptr;
@@ -63,14 +64,19 @@ class Slam {
   Slam(Slam&&) noexcept;
   Slam& operator=(Slam&&) noexcept;
 
+  /// Returns the frame of a number.
+  using FrameOf = std::function<Frame(FrameId)>;
   /// Resumes an interrupted run; must be called before the first frame.
   ///
   /// `map` and `history` are those of the saved run. `last` is the frame of its last keyframe; it
   /// is processed again, and tracking restarts there as after a loss. Records of later frames are
   /// dropped; add_frame continues with the frame after `last`. Throws ArgumentError if map and
-  /// history are inconsistent, if `last` is another frame, if there is a SlamInputs::recognizer, or
-  /// if frames have already been added; the object must then not be used any more.
-  void resume(const Map& map, const PlaceHistory& history, const Frame& last);
+  /// history are inconsistent, if `last` is another frame, or if frames have already been added;
+  /// the object must then not be used any more. A SlamInputs::recognizer needs the images of the
+  /// map's keyframes: `frame_of` returns their frames, as they were processed (ArgumentError
+  /// without it).
+  void resume(const Map& map, const PlaceHistory& history, const Frame& last,
+              const FrameOf& frame_of = {});
   /// Processes one frame; returns its current pose estimate, or the reason why it has none.
   ///
   /// The images are referenced, not copied, for as long as tracking needs them: pass a clone() of a

@@ -1,5 +1,7 @@
 #include "apps/places/cmd_match.h"
 
+#include <placegraph/frontend/places/cues/place_cue_options.h>
+
 #include <CLI/CLI.hpp>
 #include <memory>
 
@@ -22,8 +24,7 @@ void add_match_command(CLI::App& places) {
           "the candidates of each query")
       ->required()
       ->check(CLI::ExistingDirectory);
-  command
-      ->add_option("-o,--out", a.out, "file for `query candidate score`, one line per query")
+  command->add_option("-o,--out", a.out, "file for `query candidate score`, one line per query")
       ->type_name(kOutput)
       ->required();
   command->add_flag("--sequence", a.sequence, kSequenceText);
@@ -31,9 +32,10 @@ void add_match_command(CLI::App& places) {
       ->add_option("--min-age", a.min_age,
                    "smallest age of a candidate, in images; default: 300, or as gt.txt says")
       ->check(CLI::Range(1, 1'000'000'000));
-  command->add_option("--appearance", a.cues, "appearance features to compare, joined by commas")
+  command->add_option("--recognizer", a.recognizer, kRecognizerText);
+  command->add_option("--appearance", a.cues, kAppearanceText)
       ->delimiter(',')
-      ->check(CLI::IsMember(match_cues()))
+      ->check(CLI::IsMember(place_cue_names()))
       ->default_str("all");
   command
       ->add_option("--codes", a.codes,

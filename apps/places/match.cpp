@@ -1,12 +1,15 @@
 #include "apps/places/match.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
 #include <placegraph/io/measurements/loop_file.h>
 #include <placegraph/io/models/vocabulary_file.h>
+#include <placegraph/pipeline/recognizers/image_recognizer.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -16,6 +19,7 @@
 
 #include "apps/support/choice.h"
 #include "apps/support/image_range.h"
+#include "apps/support/interruption.h"
 #include "apps/support/output.h"
 #include "apps/support/progress.h"
 #include "apps/support/usage.h"
@@ -26,14 +30,10 @@ void visit(OptionVisitor& field, MatchOptions& options) {
   field.group("recognizer", options.recognizer, "similarity of two views");
   field.group("codes", options.codes, "visual words");
   field.group("sequence", options.sequence, "evidence of past images");
+  field.group("describer", options.describer, "recognizer that is not the library's");
 }
 
 void MatchOptions::check() const { check_ranges(*this); }
-
-const std::vector<std::string>& match_cues() {
-  static const std::vector<std::string> names = {"tiny", "colour", "gradients", "gabor", "corners"};
-  return names;
-}
 
 const std::vector<std::string>& match_codes() {
   static const std::vector<std::string> names = {"cues", "bow", "bow_float", "llc", "landmarks"};
@@ -119,6 +119,21 @@ Query by_words(const MatchArguments& arguments, PlaceCode code) {
   };
 }
 
+Query by_recognizer(const MatchArguments& arguments) {
+  const DescriberOptions& options = arguments.options.describer;
+  const std::shared_ptr<PlaceRetrieval> recognizer = make_recognizer(
+      open_describer(arguments.recognizer, options), options, arguments.options.recognizer);
+  return [recognizer, image_number = 0](const Image& image,
+                                        const std::optional<ViewRange>& among) mutable {
+    recognizer->begin_frame(FrameId(image_number++));
+    std::vector<PlaceSimilarity> list;
+    if (among) list = recognizer->query(image, among->first, among->last);
+    std::ranges::stable_sort(list, std::ranges::greater(), &PlaceSimilarity::score);
+    recognizer->add(image);
+    return list;
+  };
+}
+
 /// The best match of each list, if desired with the evidence of the previous images.
 class BestMatch {
  public:
@@ -155,6 +170,7 @@ std::vector<LoopPrediction> matches_of(const MatchArguments& arguments,
   Progress progress("matching", static_cast<std::int64_t>(images.size()), "images");
   auto query = queries.begin();
   for (int i = 0; i < static_cast<int>(images.size()); ++i) {
+    check_interruption();
     std::optional<ViewRange> among;
     if (query != queries.end() && query->image == i) among = {query->first, query->last};
     const std::vector<PlaceSimilarity> list =
@@ -169,38 +185,46 @@ std::vector<LoopPrediction> matches_of(const MatchArguments& arguments,
   return found;
 }
 
-PlaceRecognizerOptions with_cues(PlaceRecognizerOptions options,
-                                 const std::vector<std::string>& cues) {
-  for (const std::string& cue : cues) (void)choice<int>("--appearance", match_cues(), cue);
-  const auto keep = [&](const char* name, double& weight) {
-    if (std::find(cues.begin(), cues.end(), name) == cues.end()) weight = 0;
-  };
-  keep("tiny", options.cues.tiny);
-  keep("colour", options.cues.colour);
-  keep("gradients", options.cues.gradients);
-  keep("gabor", options.cues.gabor);
-  keep("corners", options.cues.corners);
-  return options;
+/// The options of the command line, checked.
+MatchArguments with_settings(MatchArguments arguments) {
+  require_free(arguments.out, arguments.force);
+  for (const std::string& setting : arguments.settings)
+    set_option(arguments.options, setting, option_notes());
+  require_no_recognizer(arguments.options.describer, "--set");
+  if (!arguments.cues.empty()) {
+    try {
+      PlaceCueOptions& cues = arguments.options.recognizer.cues;
+      cues = only_cues(cues, arguments.cues);
+    } catch (const ArgumentError& error) {
+      throw ArgumentError(std::string("--appearance: ") + error.what());
+    }
+    if (!arguments.recognizer.empty())
+      arguments.options.describer.beside = fmt::format("{}", fmt::join(arguments.cues, ","));
+  }
+  arguments.options.check();
+  return arguments;
 }
 
 }  // namespace
 
 MatchResult match(const MatchArguments& asked) {
-  MatchArguments arguments = asked;
-  require_free(arguments.out, arguments.force);
-  for (const std::string& setting : arguments.settings)
-    set_option(arguments.options, setting, option_notes());
-  arguments.options.check();
-  const PlaceRecognizerOptions recognizer = with_cues(arguments.options.recognizer, arguments.cues);
+  const MatchArguments arguments = with_settings(asked);
   const int code = choice<int>("--codes", match_codes(), arguments.codes);
-  const bool words = code > 0;
+  const bool words = code > 0, foreign = !arguments.recognizer.empty();
+  require(!words || !foreign, "--codes: --recognizer takes their place");
   cv::setNumThreads(1);
+  const Interruption interruption;
+  const InterruptionScope ends_the_work([&] {
+    if (interruption.requested()) throw Interrupted("interrupted; nothing was written");
+  });
   const std::vector<std::string> images = list_images(image_folder_of(arguments.folder));
   const std::vector<MatchQuery> queries = queries_of(arguments, static_cast<int>(images.size()));
   const bool colour = !words && !read_image(images.front()).colour.empty();
-  const Query find_and_add =
-      words ? by_words(arguments, static_cast<PlaceCode>(code - 1)) : by_cues(recognizer);
-  if (!colour && !words) warn(arguments.folder + ": grey images; the colour cue is not used");
+  const Query find_and_add = words     ? by_words(arguments, static_cast<PlaceCode>(code - 1))
+                             : foreign ? by_recognizer(arguments)
+                                       : by_cues(arguments.options.recognizer);
+  if (!colour && !words && !foreign)
+    warn(arguments.folder + ": grey images; the colour cue is not used");
   const Stopwatch watch;
   MatchResult result{arguments.out, images.size(), queries.size(),
                      matches_of(arguments, images, queries, colour, find_and_add)};

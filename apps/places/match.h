@@ -15,12 +15,11 @@ struct MatchOptions {
   PlaceRecognizerOptions recognizer;
   PlaceCodeOptions codes;
   SequenceFilterOptions sequence;
+  DescriberOptions describer;
   void check() const;
 };
 void visit(OptionVisitor& field, MatchOptions& options);
 
-/// Names of the cues by which two views are compared.
-const std::vector<std::string>& match_cues();
 /// Names of the descriptions of a view: "cues", or visual words in the order of PlaceCode.
 const std::vector<std::string>& match_codes();
 
@@ -28,8 +27,9 @@ struct MatchArguments {
   std::string folder;  ///< folder of images; gt.txt in it lists the candidates of each query
   std::string out;     ///< file for the matches
   std::string codes = match_codes().front();
-  std::string vocabulary;                        ///< file written by train_vocabulary; empty: none
-  std::vector<std::string> cues = match_cues();  ///< cues to compare
+  std::string vocabulary;  ///< file written by train_vocabulary; empty: none
+  std::string recognizer;  ///< recognizer that is not the library's (open_describer); empty: none
+  std::vector<std::string> cues;  ///< appearance cues; empty: all, or none beside a recognizer
   /// Smallest age of a candidate, in images; it replaces gt.txt. Without it and gt.txt: 300.
   std::optional<int> min_age;
   bool sequence = false;              ///< add the evidence of the images before each query

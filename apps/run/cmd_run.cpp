@@ -1,5 +1,6 @@
 #include "apps/run/cmd_run.h"
 
+#include <placegraph/frontend/places/cues/place_cue_options.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/pipeline/report/run_page.h>
 
@@ -71,6 +72,14 @@ void add_verbosity(CLI::App& command, Verbosity& verbosity) {
   debug->excludes(quiet)->excludes(verbose);
 }
 
+void add_recognizer(CLI::App& command, RunArguments& arguments) {
+  auto* recognizer = command.add_option("--recognizer", arguments.recognizer, kRecognizerText);
+  command.add_option("--appearance", arguments.appearance, kAppearanceText)
+      ->delimiter(',')
+      ->check(CLI::IsMember(place_cue_names()))
+      ->needs(recognizer);
+}
+
 /// `--scene`, by which floor plan and street map were chosen before there was `--elements`.
 void add_old_scene(CLI::App& command, std::optional<std::string>& scene) {
   command
@@ -117,6 +126,7 @@ void add_run_command(CLI::App& app, const RunPresentation& presentation) {
       ->add_option("--odometry", a.odometry,
                    "motion by other sensors (wheels, laser, IMU); see docs/other_sensors.md")
       ->type_name(kInput);
+  add_recognizer(*command, a);
   command->add_option("--config", a.config, kConfigText)->type_name(kInputFile);
   command->add_option("--set", a.settings, kSetText)->allow_extra_args(false);
   command

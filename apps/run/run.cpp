@@ -11,6 +11,7 @@
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/exports/place_tables.h>
+#include <placegraph/pipeline/recognizers/image_recognizer.h>
 #include <placegraph/pipeline/results/run_results.h>
 #include <sys/resource.h>
 
@@ -98,6 +99,7 @@ struct PreparedRun {
   std::unique_ptr<Dataset> dataset;
   std::vector<DataNote> notes;
   std::shared_ptr<const SceneModel> surfaces;
+  std::shared_ptr<PlaceRetrieval> recognizer;  ///< of --recognizer; null: none
 };
 
 PreparedRun prepare(RunArguments arguments) {
@@ -110,6 +112,10 @@ PreparedRun prepare(RunArguments arguments) {
   if (const auto note = note_of_unused_imu(arguments.sequence)) prepared.notes.push_back(*note);
   for (const DataNote& note : prepared.notes) warn(prepared.dataset->name() + ": " + note.text);
   prepared.surfaces = surfaces_of(options.slam);
+  // Opened by its name in this call alone, not by the options, which files may hold.
+  if (!arguments.recognizer.empty())
+    prepared.recognizer = make_recognizer(open_describer(arguments.recognizer, options.describer),
+                                          options.describer, {});
   prepared.arguments = std::move(arguments);
   prepared.options = options;
   return prepared;
@@ -152,6 +158,7 @@ RunResult run_prepared(const PreparedRun& prepared, const Interruption& interrup
   inputs.map_file = {run_map_path(arguments.out), fs::absolute(arguments.sequence).string(),
                      !arguments.resume.empty()};
   inputs.surfaces = prepared.surfaces;
+  inputs.recognizer = prepared.recognizer;
   return run_sequence(dataset, prepared.options, inputs);
 }
 

@@ -1,10 +1,13 @@
 #include "apps/run/run_options.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/pipeline/elements.h>
+#include <placegraph/pipeline/recognizers/image_recognizer.h>
 
 #include <filesystem>
 
@@ -29,6 +32,15 @@ void set_scene(const std::string& list, SceneOptions& options) {
   }
 }
 
+/// Names the recognizer of this call, which nothing else may open.
+void set_recognizer(const RunArguments& arguments, DescriberOptions& options) {
+  require(!arguments.recognizer.empty() || arguments.appearance.empty(),
+          "--appearance: cues stand beside a --recognizer");
+  if (arguments.recognizer.empty()) return;
+  options.recognizer = arguments.recognizer;
+  options.beside = fmt::format("{}", fmt::join(arguments.appearance, ","));
+}
+
 /// A run that was broken off goes on with the sequence and the options it was begun with; takes
 /// them into `arguments`. Throws ArgumentError where a flag says otherwise.
 RunOptions options_of_resumed(RunArguments& arguments) {
@@ -51,6 +63,7 @@ RunOptions options_of_resumed(RunArguments& arguments) {
   RunOptions begun;
   read_options_text(path, origin.options, begun);
   RunOptions asked = run_options(arguments, begun);
+  require_recognizer_again(begun.describer, path, !arguments.recognizer.empty());
   begun.threads = asked.threads;
   const auto was = list_options(begun), is = list_options(asked);
   for (std::size_t i = 0; i < was.size(); ++i)
@@ -72,7 +85,11 @@ RunOptions run_options(const RunArguments& arguments, RunOptions options) {
   if (arguments.scene && options.scene.geometry && begins) enable_manhattan_and_planes(options);
   const LogSink notes = option_notes();
   if (!arguments.config.empty()) read_options(config_path(arguments.config), options, notes);
+  // A run that goes on has the name of its recognizer, which says what must be given again.
+  if (begins) require_no_recognizer(options.describer, "--config " + arguments.config);
   for (const std::string& setting : arguments.settings) set_option(options, setting, notes);
+  if (begins) require_no_recognizer(options.describer, "--set");
+  set_recognizer(arguments, options.describer);
   if (arguments.sensor) set_option(options, "sensor=" + *arguments.sensor);
   if (arguments.elements) set_elements(parse_elements(*arguments.elements), options);
   if (arguments.scene) set_scene(*arguments.scene, options.scene);

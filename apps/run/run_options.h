@@ -20,6 +20,8 @@ struct RunArguments {
   std::string mask;                   ///< file of the mask of all images; empty: none
   std::string draw;                   ///< folder, video or sheet of drawn frames; empty: none
   std::optional<std::string> sensor, cues, scene, elements;
+  std::string recognizer;               ///< recognizer of loop candidates (open_describer)
+  std::vector<std::string> appearance;  ///< appearance cues beside the recognizer
   std::optional<double> camera_height_m;
   std::optional<std::int64_t> seed;
   std::optional<int> threads;

@@ -31,6 +31,10 @@ inline constexpr const char* kConfigText =
     "YAML file of options, or the name of an installed one; see `placegraph config`";
 inline constexpr const char* kModelText = "model to use instead of the installed one";
 inline constexpr const char* kCameraHeightText = "height of the camera above the ground [m]";
+inline constexpr const char* kRecognizerText =
+    "recognizer of yours: exec:COMMAND, onnx:FILE or descriptors:FILE.npy; see docs/recognizers.md";
+inline constexpr const char* kAppearanceText =
+    "appearance features to compare, joined by commas; with --recognizer: beside it";
 inline constexpr const char* kProfileText = "print the CPU time of every stage";
 
 }  // namespace placegraph::apps

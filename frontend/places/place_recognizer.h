@@ -1,5 +1,6 @@
 #pragma once
 #include <placegraph/frontend/places/recognition_options.h>
+#include <placegraph/graph/core/ids.h>
 #include <placegraph/graph/image/image.h>
 #include <placegraph/graph/recognition/place_view.h>
 
@@ -41,6 +42,11 @@ class PlaceRetrieval {
  public:
   virtual ~PlaceRetrieval() = default;
 
+  /// Announces the frame whose image is the next to be stored or asked for; ignored by default.
+  ///
+  /// The same frame may be announced again: its image is asked for, and stored. Images of one frame
+  /// are equal until clear().
+  virtual void begin_frame(FrameId frame) { (void)frame; }
   /// Forgets all images; called when a run begins.
   virtual void clear() = 0;
   /// Stores an image; its index is the number of images stored before.

@@ -59,6 +59,18 @@ void visit(OptionVisitor& field, PlaceRecognizerOptions& o) {
         "number of views, best by each single cue, whose corners are compared", {0, 1e6});
 }
 
+void DescriberOptions::check() const { check_ranges(*this); }
+
+void visit(OptionVisitor& field, DescriberOptions& o) {
+  field("recognizer", o.recognizer,
+        "recorded in a saved map: the recognizer that --recognizer named; no file may set it");
+  field("beside", o.beside,
+        "recorded in a saved map: the cues that --appearance named beside the recognizer");
+  field("timeout_s", o.timeout_s, "longest time for the answer of a program to an image [s]",
+        {0.001, 1e6});
+  field("normalize", o.normalize, "scale descriptors to unit length: similarities are cosines");
+}
+
 void SequenceFilterOptions::check() const { check_ranges(*this); }
 
 void visit(OptionVisitor& field, SequenceFilterOptions& o) {

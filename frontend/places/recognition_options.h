@@ -5,6 +5,8 @@
 #include <placegraph/frontend/relative_pose/relative_pose_options.h>
 #include <placegraph/graph/core/options.h>
 
+#include <string>
+
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// Combination of the evidence of past images with that of the present one (SequenceFilter).
@@ -48,6 +50,18 @@ struct PlaceRecognizerOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceRecognizerOptions& options);
+
+/// Descriptors of images by a recognizer that is not the library's (docs/recognizers.md).
+struct DescriberOptions {
+  /// Name of the recognizer, as `--recognizer` of the command or an argument of the program has it.
+  /// Only these set it; a saved map records it, and nothing is opened by it.
+  std::string recognizer;
+  std::string beside;     ///< appearance cues beside it, joined by commas; empty: none
+  double timeout_s = 30;  ///< longest time for the answer of a program to an image
+  bool normalize = true;  ///< scale descriptors to unit length: similarities are cosines
+  void check() const;
+};
+void visit(OptionVisitor& field, DescriberOptions& options);
 
 /// Relative pose of a loop from two images, for keyframes with too few points of known depth.
 struct LoopTwoViewOptions {

@@ -1,7 +1,10 @@
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/file_bytes.h>
 #include <placegraph/io/files/text_file.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 
 namespace placegraph {
 
@@ -24,6 +27,15 @@ void require_input_file(const std::string& path) {
     default:
       break;
   }
+}
+
+std::string read_bytes(const std::string& path) {
+  require_input_file(path);
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw FileError(path, "cannot be read");
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (stream.bad()) throw FileError(path, "cannot be read");
+  return bytes;
 }
 
 }  // namespace placegraph

@@ -33,8 +33,11 @@ LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibratio
 }
 
 LoopCloser::LoopCloser(const LoopOptions& options, const Calibration& calibration,
-                       std::uint64_t seed, const Map& map)
-    : LoopCloser(options, calibration, seed) {
+                       std::uint64_t seed, const Map& map,
+                       std::shared_ptr<PlaceRetrieval> recognizer,
+                       const std::function<Frame(FrameId)>& frame_of)
+    : LoopCloser(options, calibration, seed, std::move(recognizer)) {
+  show_keyframes(recognizer_.get(), map, frame_of);
   for (const Keyframe& keyframe : map.keyframes) {
     require(views_.empty() || views_.back().keyframe < keyframe.id,
             "LoopCloser: the map's keyframes must be in the order of their ids");
@@ -69,12 +72,13 @@ void LoopCloser::add_view(KeyframeId keyframe, const Frame& frame,
   views_.push_back(std::move(view));
   if (!recognizer_) return;
   newest_image_ = recognizer_image(frame);
+  recognizer_->begin_frame(frame.id);
   recognizer_->add(newest_image_);
 }
 
 /// The views that are most similar to an image with the given features, the best first.
 std::vector<PlaceCandidate> LoopCloser::similar_views(
-    const std::vector<Feature>& features, const Image& image,
+    const std::vector<Feature>& features, const Image& image, FrameId frame,
     const std::function<bool(KeyframeId)>& allowed) const {
   if (!recognizer_) return database_.query(features, options_.candidates, allowed);
   const auto keyframe_of = [&](int view) {
@@ -82,8 +86,8 @@ std::vector<PlaceCandidate> LoopCloser::similar_views(
   };
   std::vector<PlaceCandidate> candidates;
   for (const PlaceSimilarity& each :
-       ask_recognizer(*recognizer_, image, static_cast<int>(views_.size()), options_.candidates,
-                      [&](int view) { return allowed(keyframe_of(view)); }))
+       ask_recognizer(*recognizer_, image, frame, static_cast<int>(views_.size()),
+                      options_.candidates, [&](int view) { return allowed(keyframe_of(view)); }))
     candidates.push_back({keyframe_of(each.view), each.score});
   return candidates;
 }
@@ -101,7 +105,7 @@ std::vector<LoopCloser::Candidate> LoopCloser::retrieve(const KnownMotions& know
   const double unit = recognizer_ ? 1 : similarity_to_previous(views_.size() - 1);
   std::vector<Candidate> candidates;
   for (const PlaceCandidate& candidate :
-       similar_views(query.features, newest_image_, [&](KeyframeId id) {
+       similar_views(query.features, newest_image_, query.frame, [&](KeyframeId id) {
          return query.frame.value() - view(id).frame.value() >= options_.min_frame_gap ||
                 (known.apart && known.apart(id, query.keyframe));
        }))
@@ -232,7 +236,7 @@ std::optional<LocatedFrame> LoopCloser::relocalize(const Frame& frame,
   if (views_.empty()) return std::nullopt;
   const std::vector<Feature> features = describer_.features(frame);
   for (const PlaceCandidate& c :
-       similar_views(features, recognizer_image(frame), [](KeyframeId) { return true; }))
+       similar_views(features, recognizer_image(frame), frame.id, [](KeyframeId) { return true; }))
     if (std::find(tries.begin(), tries.end(), c.id) == tries.end()) tries.push_back(c.id);
   for (const KeyframeId id : tries) {
     Random random(seed_, "relocalization", {frame.id.value(), id.value()});

@@ -22,9 +22,11 @@ class LoopCloser {
   LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed,
              std::shared_ptr<PlaceRetrieval> recognizer = nullptr);
   /// Loads the keyframes of a map, so that `relocalize` locates frames in it, for example when the
-  /// path is travelled back.
+  /// path is travelled back. A `recognizer`, which is cleared, gets the images of these keyframes:
+  /// `frame_of` returns their frames (ArgumentError without it).
   LoopCloser(const LoopOptions& options, const Calibration& calibration, std::uint64_t seed,
-             const Map& map);
+             const Map& map, std::shared_ptr<PlaceRetrieval> recognizer = nullptr,
+             const std::function<Frame(FrameId)>& frame_of = {});
 
   using View = DescribedKeyframe;
 
@@ -50,7 +52,8 @@ class LoopCloser {
   /// The same with the keyframes `tries` tried first.
   std::optional<LocatedFrame> relocalize(const Frame& frame, std::vector<KeyframeId> tries) const;
 
-  bool has_recognizer() const { return recognizer_ != nullptr; }
+  /// The recognizer that was given; null: none.
+  const std::shared_ptr<PlaceRetrieval>& recognizer() const { return recognizer_; }
   const std::vector<View>& views() const { return views_; }
   const std::vector<LoopRecord>& records() const { return records_; }
   /// Appearance of a view in the current vocabulary; it changes with every training.
@@ -70,7 +73,7 @@ class LoopCloser {
     std::size_t record, view;
   };
   std::vector<PlaceCandidate> similar_views(const std::vector<Feature>& features,
-                                            const Image& image,
+                                            const Image& image, FrameId frame,
                                             const std::function<bool(KeyframeId)>& allowed) const;
   std::vector<Candidate> retrieve(const KnownMotions& known);
   double similarity_to_previous(std::size_t number) const;

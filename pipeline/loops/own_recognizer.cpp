@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/graph/core/parallel.h>
 #include <placegraph/pipeline/loops/own_recognizer.h>
 
 #include <algorithm>
@@ -29,9 +30,10 @@ std::vector<PlaceSimilarity> checked_candidates(PlaceRetrieval& recognizer, cons
 }  // namespace
 
 std::vector<PlaceSimilarity> ask_recognizer(PlaceRetrieval& recognizer, const Image& image,
-                                            int views, int count,
+                                            FrameId frame, int views, int count,
                                             const std::function<bool(int)>& allowed) {
   std::vector<PlaceSimilarity> found;
+  recognizer.begin_frame(frame);
   for (int first = 0; first < views; ++first) {
     if (!allowed(first)) continue;
     int last = first;
@@ -43,6 +45,17 @@ std::vector<PlaceSimilarity> ask_recognizer(PlaceRetrieval& recognizer, const Im
   std::ranges::stable_sort(found, std::ranges::greater(), &PlaceSimilarity::score);
   if (found.size() > static_cast<std::size_t>(count)) found.resize(static_cast<std::size_t>(count));
   return found;
+}
+
+void show_keyframes(PlaceRetrieval* recognizer, const Map& map,
+                    const std::function<Frame(FrameId)>& frame_of) {
+  if (!recognizer) return;
+  require(static_cast<bool>(frame_of), "Slam::resume: the recognizer lacks the images of the map");
+  for (const Keyframe& keyframe : map.keyframes) {
+    check_interruption();
+    recognizer->begin_frame(keyframe.frame);
+    recognizer->add(recognizer_image(frame_of(keyframe.frame)));
+  }
 }
 
 }  // namespace placegraph

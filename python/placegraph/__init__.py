@@ -115,7 +115,7 @@ from .options import (
     SlamOptions,
 )
 from .records import GateResult, Record, gate, read_record, record
-from .slam import Event, Recognizer, RunResult, Slam, run
+from .slam import Event, Recognizer, RecognizerArgument, RunResult, Slam, run
 
 if _typing.TYPE_CHECKING:
     from . import bag, colmap, gtsam, rerun
@@ -198,6 +198,7 @@ __all__ = [
     "PoseMarginals",
     "Progress",
     "Recognizer",
+    "RecognizerArgument",
     "Record",
     "RobustKernel",
     "RunBegan",

@@ -13,7 +13,7 @@ from __future__ import annotations
 import copy
 import os
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _core
@@ -24,15 +24,18 @@ from ._types import Path
 from .options import given_or_default, kinds
 
 if TYPE_CHECKING:
+    import numpy as np
     import pandas
     from matplotlib.axes import Axes
     from numpy.typing import ArrayLike, NDArray
+
+    from .slam import RecognizerArgument
 
     Predictions: TypeAlias = (
         Path | Mapping[str, ArrayLike] | pandas.DataFrame | Sequence[ArrayLike])
     Truth: TypeAlias = Path | LoopTruth | _core.Trajectory
 
-__all__ = ["LoopScore", "LoopTruth", "RevisitOptions", "read_predictions", "score"]
+__all__ = ["LoopScore", "LoopTruth", "RevisitOptions", "match", "read_predictions", "score"]
 
 _KEYS = ("positives", "answered", "hits", "misses", "dropped", "unjudged", "r_at_1", "r_at_5",
          "r_at_10", "ap", "recall_at_100p", "f1_max")
@@ -145,6 +148,16 @@ class LoopScore:
         rows = [(key, f"{value:.6g}") for key, value in self.metrics.items() if value is not None]
         return figure_html(rows, _core.precision_recall_picture(self._core, self.name,
                                                                 self.protocol))
+
+
+def match(images: Iterable[NDArray[np.uint8]], recognizer: RecognizerArgument, *,
+          min_age: int = 300) -> pandas.DataFrame:
+    """The older image that resembles each image most: query, candidate, score.
+
+    `images`: H x W, or H x W x 3 (BGR), uint8. `recognizer`: a function from an image to a vector,
+    or another that `Slam` takes. Candidates are at least `min_age` images older.
+    """
+    return table_of(_core.match_images(images, recognizer, min_age))
 
 
 def read_predictions(path: Path, format: str = "scores") -> pandas.DataFrame:

@@ -16,7 +16,7 @@ from .options import RunOptions, SlamOptions, given_or_default
 
 if TYPE_CHECKING:
     import numpy as np
-    from numpy.typing import NDArray
+    from numpy.typing import ArrayLike, NDArray
 
     Image = NDArray[np.uint8]
 
@@ -46,6 +46,8 @@ OnFrame: TypeAlias = Callable[[int, int, _core.FrameResult], object]
 
 class Recognizer(Protocol):
     """A place recognizer of one's own, which `Slam` and `run` ask for loop candidates.
+
+    They also take a function from an image to a vector (see RecognizerArgument).
 
     `image` is H x W uint8, or H x W x 3 (BGR) where frames have colour; it is read-only and valid
     after the call, too. Geometry decides which candidates are loops.
@@ -114,6 +116,16 @@ class RunResult(Map):
         return self._run.notes
 
 
+RecognizerArgument: TypeAlias = "Recognizer | Callable[[Image], ArrayLike] | str"
+"""What `Slam` and `run` find the candidates of loops by.
+
+A Recognizer; a function from an image to a vector, its descriptor, of which those of similar images
+have a large inner product; or the name of a program, a network or a file of descriptors:
+'exec:COMMAND', 'onnx:FILE', 'descriptors:FILE.npy' (docs/recognizers.md). A name starts its program,
+as the user of this process.
+"""
+
+
 def run(
     dataset: Dataset | Path,
     options: RunOptions | None = None,
@@ -121,7 +133,7 @@ def run(
     map_file: Path | None = None,
     resume: bool = False,
     surfaces: Path | None = None,
-    recognizer: Recognizer | None = None,
+    recognizer: RecognizerArgument | None = None,
     on_event: Callable[[Event], object] | None = None,
     on_frame: OnFrame | None = None,
     on_log: Callable[[str, str], object] | None = None,
@@ -132,7 +144,8 @@ def run(
 
     `map_file`: file in which the map is saved, after every new place and at the end; with `resume`
     the run that was interrupted there goes on. `surfaces`: model of surfaces, which the options
-    `semantics` and `context` need. `recognizer`: a place recognizer of one's own.
+    `semantics` and `context` need. `recognizer`: a place recognizer of one's own, see
+    RecognizerArgument; a run that began with one is resumed with one.
     `on_event(event)` is called for every Event, `on_frame(done, total, result)` after every frame,
     `on_log(level, text)` for every message, `stop()` before every frame: True ends the run;
     `progress` counts frames (see Progress). An exception in any of them ends the run and is raised
@@ -186,7 +199,7 @@ class Slam:
     The camera is stereo if the calibration has a baseline, RGB-D if it has a depth camera, and
     monocular otherwise. `motion`: the motion of the (left) camera by other sensors, on the clock of
     the frames. `surfaces`: a model of surfaces, which the options `semantics` and `context` need.
-    `recognizer`: a place recognizer of one's own. `on_event(event)` is called for every Event,
+    `recognizer`: see RecognizerArgument. `on_event(event)` is called for every Event,
     `on_log(level, text)` for every message. After an exception in them, and after Ctrl-C, in a call
     that changes the object, every call raises Error. Objects share nothing, so that each thread
     may have one of its own; one object serves one call at a time.
@@ -199,7 +212,7 @@ class Slam:
         *,
         motion: _core.MeasuredMotion | None = None,
         surfaces: Path | None = None,
-        recognizer: Recognizer | None = None,
+        recognizer: RecognizerArgument | None = None,
         on_event: Callable[[Event], object] | None = None,
         on_log: Callable[[str, str], object] | None = None,
     ) -> None:
@@ -244,12 +257,15 @@ class Slam:
             image, stamp, right=right, depth=depth, colour=colour, mask=mask
         )
 
-    def resume(self, map: Map, last: _core.Frame) -> None:
+    def resume(self, map: Map, last: _core.Frame,
+               frame_of: Callable[[int], _core.Frame] | None = None) -> None:
         """Goes on with a saved map of an interrupted run; comes before the first frame.
 
         `last` is the frame of the map's last keyframe; add_frame continues with the one after it.
+        A recognizer gets the images of the keyframes again: `frame_of` returns the frame of a
+        number, as `dataset.frame`.
         """
-        self._core.resume(core_of(map), last)
+        self._core.resume(core_of(map), last, frame_of)
 
     def view(self) -> _core.FrameView:
         """The tracked features of the last frame, as arrays; empty if that frame is lost."""

@@ -38,6 +38,7 @@ void bind_frame_views(nb::module_& m);
 void bind_runs(nb::module_& m);
 void bind_localize(nb::module_& m);
 void bind_slam(nb::module_& m);
+void bind_recognizers(nb::module_& m);
 void bind_synthetic(nb::module_& m);
 void bind_evaluation(nb::module_& m);
 void bind_trajectory_info(nb::module_& m);

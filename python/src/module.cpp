@@ -56,6 +56,7 @@ NB_MODULE(_core, m) {
   bind_localize(m);
   bind_runs(m);
   bind_slam(m);
+  bind_recognizers(m);
   bind_figures(m);
   bind_synthetic(m);
   bind_evaluation(m);

@@ -9,6 +9,7 @@ import matplotlib.pyplot
 import numpy as np
 import pandas
 import pytest
+from numpy.typing import NDArray
 
 import placegraph as pg
 from placegraph import loops
@@ -126,3 +127,28 @@ def test_the_plot_has_the_points_of_the_curve() -> None:
     np.testing.assert_allclose(line[1::2, 1], result.curve["precision"])
     assert "mine" in str(axes.get_lines()[0].get_label())
     matplotlib.pyplot.close("all")
+
+
+def test_match_finds_the_nearest_older_image_of_each() -> None:
+    random = np.random.default_rng(8)
+    places = random.integers(0, 256, (20, 24, 32, 3), dtype=np.uint8)
+    noise = random.integers(0, 20, (20, 24, 32, 3), dtype=np.uint8)
+    images = [*places, *(places // 2 + noise)]
+
+    def describe(image: NDArray[np.uint8]) -> NDArray[np.float64]:
+        values = image.astype(np.float64).ravel()
+        return np.asarray(values - values.mean())
+
+    found = loops.match(iter(images), describe, min_age=20)
+    assert found["query"].tolist() == list(range(20, 40))
+    assert found["candidate"].tolist() == list(range(20))
+    vectors = np.array([describe(image) for image in images])
+    vectors /= np.linalg.norm(vectors, axis=1, keepdims=True)
+    expected = (vectors[:20] * vectors[20:]).sum(axis=1)
+    np.testing.assert_allclose(found["score"], expected, atol=1e-5)
+    truth = loops.LoopTruth({q: [q - 20] if q >= 20 else [] for q in range(40)})
+    assert loops.score(found, truth, min_age=None)["r_at_1"] == 1
+    with pytest.raises(pg.ArgumentError, match="min_age"):
+        loops.match(images, describe, min_age=0)
+    with pytest.raises(pg.ArgumentError, match="recognizer: there is none"):
+        loops.match(images, None)  # type: ignore[arg-type]

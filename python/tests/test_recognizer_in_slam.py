@@ -108,6 +108,63 @@ def test_run_uses_it(tmp_path: pathlib.Path) -> None:
         slam.resume(result, dataset.frame(0))
 
 
+def test_a_function_from_an_image_to_a_vector_finds_the_loop(world: World, loop: Frames) -> None:
+    loops: list[pg.LoopRecord] = []
+    drive(world, loop, recognizer=Thumbnails().describe, on_event=lambda e: loops.append(e)
+          if isinstance(e, pg.LoopRecord) else None).finish()
+    accepted = [record for record in loops if record.accepted]
+    assert len(accepted) >= 2
+    for record in accepted:
+        assert record.query_frame - record.match_frame > 400 and 0.8 < record.similarity <= 1
+
+
+@pytest.mark.parametrize(
+    "describe, text",
+    [
+        (lambda image: None, "recognizer: it must return a vector of numbers, not None"),
+        (lambda image: "text", "recognizer: it must return a vector of numbers"),
+        (lambda image: np.zeros((2, 2)), "recognizer: it must return a vector of numbers"),
+        (lambda image: [], "the descriptor of image [0-9]+ is empty"),
+        (lambda image: [1, float("nan")], "a value that is not finite"),
+        (lambda image: [0, 0], "is zero"),
+    ],
+)
+def test_what_is_no_vector_is_an_error(world: World, loop: Frames, describe: Any,
+                                       text: str) -> None:
+    slam = drive(world, [], gap=5, recognizer=describe)
+    with pytest.raises(pg.ArgumentError, match=text):
+        for frame in loop[:10]:
+            slam.add_frame(frame)
+
+
+def test_descriptors_of_a_file_are_those_of_the_frames(tmp_path: pathlib.Path) -> None:
+    dataset = pg.synthetic.render("corridor-loop", tmp_path / "drive", frames=40, size=(240, 180))
+    rows = np.random.default_rng(1).normal(size=(40, 8)).astype(np.float32)
+    np.save(tmp_path / "rows.npy", rows)
+    options = pg.RunOptions()
+    options.loops.min_frame_gap = 5
+    result = pg.run(dataset, options, recognizer=f"descriptors:{tmp_path / 'rows.npy'}")
+    unit = rows / np.linalg.norm(rows, axis=1, keepdims=True)
+    assert len(result.loops) > 0
+    for _, row in result.loops.iterrows():
+        expected = unit[int(row.query_frame)] @ unit[int(row.match_frame)]
+        assert abs(row.similarity - expected) < 1e-5
+    np.save(tmp_path / "few.npy", rows[:3])
+    with pytest.raises(pg.FileError, match="few.npy: has 3 rows, and none for image"):
+        pg.run(dataset, options, recognizer=f"descriptors:{tmp_path / 'few.npy'}")
+
+
+def test_no_options_name_a_recognizer(tmp_path: pathlib.Path) -> None:
+    dataset = pg.synthetic.render("corridor-loop", tmp_path / "drive", frames=3, size=(240, 180))
+    options = pg.RunOptions()
+    options.describer.recognizer = f"exec:touch {tmp_path / 'marker'}"
+    with pytest.raises(pg.ArgumentError, match="options: describer.recognizer 'exec:touch"):
+        pg.run(dataset, options)
+    assert not (tmp_path / "marker").exists()
+    with pytest.raises(pg.ArgumentError, match="no-such-program cannot be started"):
+        pg.run(dataset, recognizer="exec:no-such-program")
+
+
 class Wrong(Thumbnails):
     def __init__(self, answer: Answer) -> None:
         super().__init__()

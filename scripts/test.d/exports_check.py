@@ -1,6 +1,6 @@
 """exports_check.py PROGRAM FOLDER: what the program writes, read by evo, gtsam and networkx; by others in exports_geometry.py and exports_dense.py.
 
-Beside that the figures of evo, epica and slam-regression-ci on the same trajectories (exports_evaluation.py, exports_epica.py, exports_slam_regression.py).
+Beside that the figures of evo, epica and slam-regression-ci on the same trajectories (exports_evaluation.py, exports_epica.py, exports_slam_regression.py), and a recognizer of others (exports_recognizer.py).
 
 Renders and runs small sequences in FOLDER. Prints one line a check; exits 1 where one fails.
 """
@@ -23,6 +23,7 @@ from exports_dense import check_bundle, check_dense
 from exports_epica import check_epica
 from exports_evaluation import check_evaluation
 from exports_geometry import check_geometry, package
+from exports_recognizer import check_recognizer
 from exports_slam_regression import check_slam_regression
 
 FRAMES = 40
@@ -181,6 +182,7 @@ def main():
     if pycolmap := package("pycolmap"):
         check_bundle(placegraph, check, pycolmap, "model")
     check_dense(placegraph, check, package)
+    check_recognizer(placegraph, check)
     print(f"exports_check: {'FAILED: ' + str(failures) + ' checks' if failures else 'passed'}")
     return 1 if failures else 0
 

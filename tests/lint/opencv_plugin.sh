@@ -1,5 +1,5 @@
 #!/bin/sh
-# opencv_plugin.sh ROOT: OpenCV's imgcodecs, videoio and ximgproc are included and linked by the module in
+# opencv_plugin.sh ROOT: OpenCV's dnn, imgcodecs, videoio and ximgproc are included and linked by the module in
 # ROOT/graph/image/plugin alone (cmake/dependencies.cmake looks for them), because they bring 200 libraries
 # with them. Prints each violation as file:line.
 set -eu
@@ -8,7 +8,7 @@ files=$(find . \( -name build -o -name .git -o -path ./out -o -path ./tests/inst
   \( -name '*.h' -o -name '*.cpp' -o -name '*.in' -o -name CMakeLists.txt -o -name '*.cmake' \) -print |
   grep -v '^\./cmake/dependencies\.cmake$' | LC_ALL=C sort)
 [ -n "$files" ] || { echo "$1: no sources"; exit 2; }
-modules='(imgcodecs|videoio|ximgproc|highgui)'
+modules='(dnn|imgcodecs|videoio|ximgproc|highgui)'
 # OpenCV_LIBS names all of them.
 # shellcheck disable=SC2086
 found=$(grep -nE "#[[:space:]]*include[[:space:]]*[<\"]opencv2/($modules|opencv\.hpp)|opencv_$modules([^A-Za-z0-9_]|\$)|OpenCV_LIBS" \

@@ -68,7 +68,8 @@ void normalize(std::vector<float>& cells, GridSize size, int orientations) {
 
 }  // namespace
 
-CueGrid gradient_layout_cue(const Image& grey, const GradientLayoutOptions& options, double scale) {
+std::vector<float> gradient_layout(const Image& grey, const GradientLayoutOptions& options,
+                                   double scale) {
   require(grey.type() == CV_8UC1, "gradient_layout_cue: grey image needed");
   const GridSize size = grid_size(grey, options.columns, scale, 1);
   cv::Mat small;
@@ -76,6 +77,12 @@ CueGrid gradient_layout_cue(const Image& grey, const GradientLayoutOptions& opti
              cv::INTER_AREA);
   std::vector<float> cells = histograms(small, size, options);
   normalize(cells, size, options.orientations);
+  return cells;
+}
+
+CueGrid gradient_layout_cue(const Image& grey, const GradientLayoutOptions& options, double scale) {
+  const std::vector<float> cells = gradient_layout(grey, options, scale);
+  const GridSize size = grid_size(grey, options.columns, scale, 1);
   return make_cue_grid(size.columns, size.rows, options.orientations, cells);
 }
 

@@ -2,6 +2,8 @@
 #include <placegraph/frontend/places/cues/cue_grid.h>
 #include <placegraph/graph/image/image.h>
 
+#include <vector>
+
 namespace placegraph {
 
 struct GradientLayoutOptions {
@@ -10,6 +12,12 @@ struct GradientLayoutOptions {
   int cell_px = 8;
   int orientations = 9;  ///< number of orientations in [0, 180) deg
 };
+
+/// Histograms of gradient_layout_cue before they are rounded.
+///
+/// Row by row, `orientations` values a cell, each from 0 to 1.
+std::vector<float> gradient_layout(const Image& grey, const GradientLayoutOptions& options = {},
+                                   double scale = 1);
 
 /// Layout of edges: histograms of gradient orientation (Dalal & Triggs 2005).
 ///

@@ -1,4 +1,7 @@
 #include <placegraph/frontend/places/cues/place_cue_options.h>
+#include <placegraph/graph/core/error.h>
+
+#include <algorithm>
 
 namespace placegraph {
 
@@ -22,6 +25,30 @@ void visit(OptionVisitor& field, PlaceCueOptions& o) {
   field.group("corner_agreement", o.corner_agreement,
               "corners that agree in one similarity transformation");
   field.retired({{"corner_floor", 12}, {"tiny_columns", 24}, {"shift_loss", 0.1}});
+}
+
+const std::vector<std::string>& place_cue_names() {
+  static const std::vector<std::string> names = {"tiny", "colour", "gradients", "gabor", "corners"};
+  return names;
+}
+
+PlaceCueOptions only_cues(PlaceCueOptions options, const std::vector<std::string>& names) {
+  double* const weights[] = {&options.tiny, &options.colour, &options.gradients, &options.gabor,
+                             &options.corners};
+  const std::vector<std::string>& known = place_cue_names();
+  std::vector<bool> named(known.size(), false);
+  for (const std::string& name : names) {
+    const auto found = std::ranges::find(known, name);
+    if (found == known.end()) {
+      std::string all;
+      for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+      throw ArgumentError("'" + name + "' is none of " + all);
+    }
+    named[static_cast<std::size_t>(found - known.begin())] = true;
+  }
+  for (std::size_t i = 0; i < known.size(); ++i)
+    if (!named[i]) *weights[i] = 0;
+  return options;
 }
 
 }  // namespace placegraph

@@ -1,6 +1,9 @@
 #pragma once
 #include <placegraph/graph/core/options.h>
 
+#include <string>
+#include <vector>
+
 namespace [[gnu::visibility("default")]] placegraph {
 
 /// Count of the corners of two images that match and agree in one similarity transformation.
@@ -27,5 +30,11 @@ struct PlaceCueOptions {
   void check() const;
 };
 void visit(OptionVisitor& field, PlaceCueOptions& options);
+
+/// Names of the cues: the keys of their weights.
+const std::vector<std::string>& place_cue_names();
+/// The same options with weight 0 for every cue that is not named.
+/// Throws ArgumentError for a name that is not one of place_cue_names().
+PlaceCueOptions only_cues(PlaceCueOptions options, const std::vector<std::string>& names);
 
 }  // namespace placegraph

@@ -1,57 +1,139 @@
 #include "python/src/pipeline/recognizer.h"
 
 #include <fmt/format.h>
+#include <placegraph/frontend/places/descriptors/image_describer.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/pipeline/recognizers/image_recognizer.h>
 
+#include <algorithm>
+
+#include "python/src/arrays.h"
 #include "python/src/graph/images.h"
 
 namespace placegraph::python {
 namespace {
 
+std::string repr_of(nb::handle object) { return nb::cast<std::string>(nb::repr(object)); }
+
+bool has_method(nb::handle object, const char* name) {
+  return nb::hasattr(object, name) && PyCallable_Check(object.attr(name).ptr()) != 0;
+}
+
 /// One pair of an answer.
 PlaceSimilarity similarity_of(nb::handle pair) {
   std::pair<int, double> value;
   if (!nb::try_cast(pair, value))
-    throw ArgumentError(fmt::format("recognizer: query must return pairs (view, score), not {}",
-                                    nb::cast<std::string>(nb::repr(pair))));
+    throw ArgumentError(
+        fmt::format("recognizer: query must return pairs (view, score), not {}", repr_of(pair)));
   return {value.first, value.second};
+}
+
+/// A place recognizer written in Python: an object with the methods clear(), add(image) and
+/// query(image, first, last), which returns pairs (view, score).
+class PythonRecognizer : public PlaceRetrieval, public HeldObject {
+ public:
+  using HeldObject::HeldObject;
+
+  void clear() override {
+    const nb::gil_scoped_acquire gil;
+    present().attr("clear")();
+  }
+  void add(const Image& image) override {
+    const nb::gil_scoped_acquire gil;
+    present().attr("add")(array_of(image, Access::kReadOnly));
+  }
+  std::vector<PlaceSimilarity> query(const Image& image, int first, int last) override {
+    const nb::gil_scoped_acquire gil;
+    const nb::object answer =
+        present().attr("query")(array_of(image, Access::kReadOnly), first, last);
+    if (!nb::hasattr(answer, "__iter__"))
+      throw ArgumentError(fmt::format(
+          "recognizer: query must return a list of pairs (view, score), not {}", repr_of(answer)));
+    std::vector<PlaceSimilarity> result;
+    for (nb::handle pair : answer) result.push_back(similarity_of(pair));
+    return result;
+  }
+};
+
+/// A function of Python from an image to a vector.
+class PythonDescriber : public ImageDescriber, public HeldObject {
+ public:
+  using HeldObject::HeldObject;
+
+  std::vector<float> describe(const Image& image, FrameId) override {
+    const nb::gil_scoped_acquire gil;
+    const nb::object answer = present()(array_of(image, Access::kReadOnly));
+    std::vector<float> values;
+    // An array of any kind of numbers becomes a list of floats.
+    const nb::object list = nb::hasattr(answer, "tolist") ? answer.attr("tolist")() : answer;
+    if (!nb::try_cast(list, values))
+      throw ArgumentError(
+          fmt::format("recognizer: it must return a vector of numbers, not {}", repr_of(answer)));
+    return values;
+  }
+};
+
+/// The best older image of each image, as columns query, candidate and score.
+Table match_images(const nb::iterable& images, const nb::object& recognizer, int min_age) {
+  require(min_age >= 1, "min_age: at least 1 is needed");
+  const OwnRecognizer own = recognizer_of(recognizer);
+  require(own.retrieval != nullptr, "recognizer: there is none");
+  std::vector<std::int64_t> query, candidate;
+  std::vector<double> score;
+  int i = 0;
+  for (nb::handle each : images) {
+    const bool colour = nb::hasattr(each, "ndim") && nb::cast<int>(each.attr("ndim")) == 3;
+    const Image image = colour ? colour_image(each, "images") : grey_image(each, "images");
+    const WithoutGil released;
+    if (i == 0) own.retrieval->clear();
+    own.retrieval->begin_frame(FrameId(i));
+    std::vector<PlaceSimilarity> list;
+    if (i >= min_age) list = own.retrieval->query(image, 0, i - min_age);
+    const auto best = std::ranges::max_element(list, {}, &PlaceSimilarity::score);
+    if (best != list.end()) {
+      query.push_back(i);
+      candidate.push_back(best->view);
+      score.push_back(best->score);
+    }
+    own.retrieval->add(image);
+    ++i;
+  }
+  const std::size_t n = query.size();
+  Table columns;
+  columns["query"] = owned_array(std::move(query), {n});
+  columns["candidate"] = owned_array(std::move(candidate), {n});
+  columns["score"] = owned_array(std::move(score), {n});
+  return columns;
 }
 
 }  // namespace
 
-PythonRecognizer::PythonRecognizer(nb::object object) : object_(std::move(object)) {
+void bind_recognizers(nb::module_& m) {
+  using namespace nb::literals;
+  m.def("match_images", &match_images, "images"_a, "recognizer"_a, "min_age"_a,
+        "The best older image of each image, as columns query, candidate and score.");
+}
+
+const nb::object& HeldObject::present() const {
+  require(object_.is_valid(), "recognizer: it is gone");
+  return object_;
+}
+
+OwnRecognizer recognizer_of(const nb::object& object, const DescriberOptions& options) {
+  if (object.is_none()) return {};
+  if (std::string name; nb::isinstance<nb::str>(object) && nb::try_cast(object, name))
+    return {make_recognizer(open_describer(name, options), options, {}), nullptr, name};
+  const std::string name = "python:" + nb::cast<std::string>(nb::type_name(object.type()));
+  const bool function = PyCallable_Check(object.ptr()) != 0;
+  if (function && !has_method(object, "query")) {
+    const auto describer = std::make_shared<PythonDescriber>(object);
+    return {make_recognizer(describer, options, {}), describer, name};
+  }
   for (const char* method : {"clear", "add", "query"})
-    if (!nb::hasattr(object_, method) || PyCallable_Check(object_.attr(method).ptr()) == 0)
+    if (!has_method(object, method))
       throw ArgumentError(fmt::format("recognizer: it has no method {}", method));
-}
-
-void PythonRecognizer::clear() {
-  const nb::gil_scoped_acquire gil;
-  require(object_.is_valid(), "recognizer: it is gone");
-  object_.attr("clear")();
-}
-
-void PythonRecognizer::add(const Image& image) {
-  const nb::gil_scoped_acquire gil;
-  require(object_.is_valid(), "recognizer: it is gone");
-  object_.attr("add")(array_of(image, Access::kReadOnly));
-}
-
-std::vector<PlaceSimilarity> PythonRecognizer::query(const Image& image, int first, int last) {
-  const nb::gil_scoped_acquire gil;
-  require(object_.is_valid(), "recognizer: it is gone");
-  const nb::object answer = object_.attr("query")(array_of(image, Access::kReadOnly), first, last);
-  if (!nb::hasattr(answer, "__iter__"))
-    throw ArgumentError(
-        fmt::format("recognizer: query must return a list of pairs (view, score), not {}",
-                    nb::cast<std::string>(nb::repr(answer))));
-  std::vector<PlaceSimilarity> result;
-  for (nb::handle pair : answer) result.push_back(similarity_of(pair));
-  return result;
-}
-
-std::shared_ptr<PythonRecognizer> recognizer_of(const nb::object& object) {
-  return object.is_none() ? nullptr : std::make_shared<PythonRecognizer>(object);
+  const auto recognizer = std::make_shared<PythonRecognizer>(object);
+  return {recognizer, recognizer, name};
 }
 
 }  // namespace placegraph::python

@@ -3,6 +3,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/map/map_database.h>
 #include <placegraph/io/models/scene_model_file.h>
+#include <placegraph/pipeline/recognizers/image_recognizer.h>
 #include <placegraph/pipeline/run.h>
 #include <placegraph/pipeline/run_notes.h>
 
@@ -75,14 +76,16 @@ PythonRun run(const Dataset& dataset, const OptionSet& options, const std::strin
               const std::optional<std::string>& surfaces, const nb::object& recognizer,
               const nb::object& on_event, const nb::object& on_frame, const nb::object& on_log,
               const nb::object& stop) {
-  const RunOptions copy = options_in<RunOptions>(options, "options");
+  RunOptions copy = options_in<RunOptions>(options, "options");
   const Callbacks callbacks{on_event, on_frame, on_log, stop};
   callbacks.check();
   require(!resume || map_file, "resume: a map_file is needed, from which the run goes on");
-  const std::shared_ptr<PythonRecognizer> own = recognizer_of(recognizer);
+  require_no_recognizer(copy.describer, "options");
+  const OwnRecognizer own = recognizer_of(recognizer, copy.describer);
+  copy.describer.recognizer = own.name;
   std::optional<PythonEvents> events;
   RunInputs inputs;
-  inputs.recognizer = own;
+  inputs.recognizer = own.retrieval;
   if (!on_event.is_none()) inputs.events = &events.emplace(on_event);
   if (!on_frame.is_none())
     inputs.progress = [&](std::size_t done, std::size_t total, const FrameResult& result) {

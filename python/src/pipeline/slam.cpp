@@ -40,7 +40,7 @@ class PythonSlam {
     SlamInputs inputs;
     inputs.motion = std::move(motion);
     if (surfaces) inputs.surfaces = surfaces_in(*surfaces);
-    inputs.recognizer = recognizer_;
+    inputs.recognizer = recognizer_.retrieval;
     inputs.events = events_.get();
     inputs.log = log_sink(on_log_);
     slam_.emplace(options_, calibration_, inputs);
@@ -70,9 +70,16 @@ class PythonSlam {
     });
   }
 
-  void resume(const StoredMap& map, const Frame& last) {
+  void resume(const StoredMap& map, const Frame& last, const nb::object& frame_of) {
+    require_callable(frame_of, "frame_of");
+    Slam::FrameOf frames;
+    if (!frame_of.is_none())
+      frames = [&](FrameId id) {
+        const nb::gil_scoped_acquire gil;
+        return nb::cast<Frame>(frame_of(id.value()));
+      };
     call([&] {
-      slam_->resume(map.map, map.history, last);
+      slam_->resume(map.map, map.history, last, frames);
       next_ = last.id.value() + 1;
       return 0;
     });
@@ -113,13 +120,13 @@ class PythonSlam {
   /// The objects of Python, for the search for cycles.
   int traverse(visitproc visit, void* arg) {
     if (events_) Py_VISIT(events_->function().ptr());
-    if (recognizer_) Py_VISIT(recognizer_->object().ptr());
+    if (recognizer_.held) Py_VISIT(recognizer_.held->object().ptr());
     Py_VISIT(on_log_.ptr());
     return 0;
   }
   void clear() {
     if (events_) events_->clear();
-    if (recognizer_) recognizer_->release();
+    if (recognizer_.held) recognizer_.held->release();
     on_log_ = nb::none();
   }
 
@@ -160,7 +167,7 @@ class PythonSlam {
   Calibration calibration_;
   nb::object on_log_;
   std::unique_ptr<PythonEvents> events_;
-  std::shared_ptr<PythonRecognizer> recognizer_;
+  OwnRecognizer recognizer_;
   std::optional<Slam> slam_;
   std::int64_t next_ = 0;
   bool busy_ = false;
@@ -199,14 +206,14 @@ void bind_slam(nb::module_& m) {
            "right"_a = nb::none(), "depth"_a = nb::none(), "colour"_a = nb::none(),
            "mask"_a = nb::none(), "Processes a frame of arrays, which are copied; stamp [s].")
       .def("add", &PythonSlam::add, "frame"_a, "Processes a frame, whose images are shared.")
-      .def("resume", &PythonSlam::resume, "map"_a, "last"_a,
+      .def("resume", &PythonSlam::resume, "map"_a, "last"_a, "frame_of"_a = nb::none(),
            "Goes on with the saved map of an interrupted run; must be called before the first "
            "frame.\n\n"
            "`last` is the frame of the map's last keyframe; it is processed again, and tracking "
            "restarts there as after a loss. Records of later frames are dropped. Raises "
-           "ArgumentError if the map is inconsistent, if `last` is another frame, if there is a "
-           "`recognizer`, or if frames have already been added; the object must then not be used "
-           "any more.")
+           "ArgumentError if the map is inconsistent, if `last` is another frame, or if frames "
+           "have already been added; the object must then not be used any more. A `recognizer` "
+           "needs the images of the keyframes: `frame_of` returns the frame of a number.")
       .def("snapshot", &PythonSlam::snapshot, doc("Slam::snapshot"))
       .def("finish", &PythonSlam::finish, doc("Slam::finish"))
       .def("view", &PythonSlam::view, doc("Slam::view"))

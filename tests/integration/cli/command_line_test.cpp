@@ -180,7 +180,7 @@ TEST_F(CommandLine, EveryTextIsAnOutputAnInputOrAWord) {
       "--name",      "--sequences",    "--split",     "--system",
       "--blind",     "--clock-offset", "--cues",      "--defects", "--dictionary",  "--difficulty",
       "--elements",  "--gravity",      "--holdout",   "--normal",  "--lever-arm",   "--origin",
-      "--scene",     "--set",          "--size",      "--systems", "--truth-noise", "--truth-same",
+      "--recognizer", "--scene",     "--set",          "--size",      "--systems", "--truth-noise", "--truth-same",
       "--title",     "PAIR",           "WORLD"};
   std::set<std::string> found;
   for (const CLI::App* command : all_commands(*app))

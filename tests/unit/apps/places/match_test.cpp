@@ -66,14 +66,14 @@ TEST_F(MatchCommand, AsksEveryImageThatIsOldEnoughWhateverTheTruthSays) {
 
 TEST_F(MatchCommand, ACueThatIsLeftOutHasNoWeight) {
   const std::vector<double> all = scores();
-  for (const std::string& left_out : match_cues()) {
+  for (const std::string& left_out : place_cue_names()) {
     SCOPED_TRACE(left_out);
-    arguments.cues = match_cues();
+    arguments.cues = place_cue_names();
     std::erase(arguments.cues, left_out);
     arguments.settings.clear();
     const std::vector<double> without = scores();
     EXPECT_NE(without, all);
-    arguments.cues = match_cues();
+    arguments.cues.clear();
     arguments.settings = {"recognizer.cues." + left_out + "=0"};
     EXPECT_EQ(scores(), without);
   }
@@ -126,7 +126,7 @@ TEST_F(MatchCommand, NamesTheFileAndThePlaceOfWhatIsWrong) {
   arguments.cues = {"smell"};
   EXPECT_THAT(message_of<ArgumentError>([&] { match(arguments); }),
               HasSubstr("--appearance: 'smell' is none of tiny, "));
-  arguments.cues = match_cues();
+  arguments.cues.clear();
   folder.write("gt.txt", "6 0 50 0\n");
   EXPECT_THAT(message_of([&] { match(arguments); }),
               HasSubstr("gt.txt: image 50, and there are 12"));

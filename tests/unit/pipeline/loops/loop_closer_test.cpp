@@ -109,6 +109,8 @@ TEST_F(LoopCloserOnAStreet, AcceptsARevisitWhenASecondOneAgrees) {
 /// Knows which keyframe of the first drive each one of the second drive is beside.
 struct TrueNeighbours final : PlaceRetrieval {
   int first_drive = 0, images = 0, cleared = 0;
+  std::vector<FrameId> frames;  // begun
+  void begin_frame(FrameId frame) override { frames.push_back(frame); }
   void clear() override {
     images = 0;
     ++cleared;
@@ -132,6 +134,11 @@ TEST_F(LoopCloserOnAStreet, TakesTheCandidatesOfARecognizerOfTheCallers) {
   EXPECT_EQ(recognizer->cleared, 1);
   const auto loops = drive(closer, 1, SE3(), false);
   EXPECT_EQ(recognizer->images, kAll);
+  std::vector<FrameId> frames = recognizer->frames;
+  frames.erase(std::unique(frames.begin(), frames.end()), frames.end());
+  ASSERT_EQ(frames.size(), static_cast<std::size_t>(kAll));
+  for (const LoopCloser::View& view : closer.views())
+    EXPECT_EQ(frames[static_cast<std::size_t>(&view - closer.views().data())], view.frame);
   ASSERT_GE(loops.size(), 2u) << stages(closer);
   for (const Loop& loop : loops) EXPECT_EQ(loop.query.value() - loop.match.value(), kFirst);
   for (const LoopRecord& record : closer.records()) EXPECT_EQ(record.similarity, -7);
