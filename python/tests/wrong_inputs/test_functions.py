@@ -187,7 +187,7 @@ CASES: list[tuple[str, Callable[[], Any], type[Exception], str]] = [
     ("age of a given truth", lambda: loops.score(([10], [1], [1.0]), TRUTH, min_age=3), ValueError,
      "min_age"),
     ("matrix without columns", lambda: loops.LoopTruth.from_matrix(np.zeros((3, 0), bool)),
-     "no columns"),
+     ValueError, "no columns"),
     ("reliability of scores above one",
      lambda: loops.score(([10], [1], [7.0]), TRUTH).reliability, ValueError, ""),
     ("alignment that is none", lambda: pg.evaluate(POSES, POSES, align="affine"), ValueError,
