@@ -27,5 +27,5 @@
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/graphs/pose_graph_file.h>
 #include <placegraph/io/map/map_database.h>
-#include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/loops/loop_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>

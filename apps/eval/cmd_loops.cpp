@@ -13,8 +13,10 @@ namespace {
 
 const std::map<std::string, LoopFileFormat> kFormats = {{"scores", LoopFileFormat::kScores},
                                                         {"ibow", LoopFileFormat::kIbow},
-                                                        {"run", LoopFileFormat::kRun}};
-const std::vector<std::string> kFormatNames = {"scores", "ibow", "run"};
+                                                        {"run", LoopFileFormat::kRun},
+                                                        {"topk", LoopFileFormat::kTopK},
+                                                        {"matrix", LoopFileFormat::kMatrix}};
+const std::vector<std::string> kFormatNames = {"scores", "ibow", "run", "topk", "matrix"};
 
 void add_predictions(CLI::App& command, LoopsArguments& a) {
   command
@@ -28,13 +30,65 @@ void add_predictions(CLI::App& command, LoopsArguments& a) {
             a.formats.clear();
             for (const std::string& name : names) a.formats.push_back(kFormats.at(name));
           },
-          "scores (query candidate score [stage] a line), ibow (iBoW-LCD's output, "
-          "inliers as score) or run (loops.csv of a run, its probabilities); one for all "
-          "or one each")
+          "scores (query candidate score [stage] a line, with a header or without), ibow "
+          "(iBoW-LCD's output, inliers as score), run (loops.csv of a run, its probabilities), topk "
+          "(the best candidates of a query in a row) or matrix (the score of each pair); one for "
+          "all or one each")
       ->check(CLI::IsMember(kFormatNames))
       ->default_str("scores");
+  command
+      .add_option_function<std::string>(
+          "--scores",
+          [&a](const std::string& kind) {
+            a.scores = kind == "distance" ? ScoreKind::kDistance : ScoreKind::kSimilarity;
+          },
+          "what scores are: similarity (larger is more certain) or distance; default: as the header "
+          "of their column says, else similarity")
+      ->check(CLI::IsMember({"similarity", "distance"}));
+  command
+      .add_option("--top-k-scores", a.scores_of_top_k,
+                  "with --format topk: the scores of the candidates, a file of the same shape")
+      ->check(CLI::ExistingFile);
   command.add_option("--systems", a.names,
                      "names of the systems; default: the names of their files");
+}
+
+void add_truth(CLI::App& command, LoopsArguments& a) {
+  command
+      .add_option("--truth", a.truth,
+                  "true matches: lines `q first last matches...`, lines `q matches...`, or a matrix "
+                  "of 0 and 1 (text or .npy), row q and column m")
+      ->check(CLI::ExistingFile);
+  command
+      .add_option("--true-poses", a.poses,
+                  "ground truth of one drive: one true pose or position per image")
+      ->check(CLI::ExistingFile);
+  const char* images =
+      ": poses, positions (also latitude and longitude, or in names: @ east @ north @ ...), names "
+      "or a folder of images";
+  command.add_option("--queries", a.queries, std::string("images that ask") + images)
+      ->check(CLI::ExistingPath);
+  command.add_option("--database", a.database, std::string("images that answer") + images)
+      ->check(CLI::ExistingPath);
+  command.add_flag("--within", a.within,
+                   "candidates are older images of the queries' own drive; needed where the truth "
+                   "does not tell");
+  command
+      .add_option("--radius", a.revisit.same.radius_m,
+                   "with --true-poses: largest distance of the same place [m]")
+      ->capture_default_str();
+  command
+      .add_option("--heading", a.revisit.same.heading_deg,
+                   "with --true-poses: largest angle between views of the same place [deg]")
+      ->capture_default_str();
+  command
+      .add_option("--min-age", a.min_age,
+                   "smallest age of a candidate within one drive, in images; default: 300, or 0 if "
+                   "the truth names the candidates; 0: of a database")
+      ->check(CLI::Range(0, 1'000'000'000));
+  command.add_option("--tolerance", a.tolerance, "largest distance from a true match, in images")
+      ->check(CLI::Range(0, 1'000'000))
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -50,31 +104,11 @@ void add_eval_loops_command(
   command->footer(
       "placegraph eval loops --predictions found.txt --format scores --truth gt.txt --json");
   add_predictions(*command, a);
-  command
-      ->add_option("--truth", a.truth,
-                   "true matches: lines `q first last matches...`, lines `q matches...`, or a "
-                   "matrix of 0 and 1")
-      ->check(CLI::ExistingFile);
-  command->add_option("--true-poses", a.poses, "ground truth: one true pose per image")
-      ->check(CLI::ExistingFile);
-  command
-      ->add_option("--radius", a.revisit.same.radius_m,
-                   "with --true-poses: largest distance of the same place [m]")
-      ->capture_default_str();
-  command
-      ->add_option("--heading", a.revisit.same.heading_deg,
-                   "with --true-poses: largest angle between views of the same place [deg]")
-      ->capture_default_str();
-  command
-      ->add_option("--min-age", a.min_age,
-                   "smallest age of a candidate, in images; default: 300, or 0 if the truth names "
-                   "the candidates")
-      ->check(CLI::Range(0, 1'000'000'000));
-  command->add_option("--tolerance", a.tolerance, "largest distance from a true match, in images")
-      ->check(CLI::Range(0, 1'000'000))
-      ->capture_default_str();
+  add_truth(*command, a);
   command->add_flag("--json", *json, kJsonText);
   command->add_option("--csv", a.csv, "write the details as CSV")->type_name(kOutput);
+  command->add_option("--curve", a.curve, "write precision and recall at every threshold as CSV")
+      ->type_name(kOutput);
   command->add_option("--plot", a.plot, kPlotText)->type_name(kOutput);
   command->add_option("--report", a.report, kReportText)->type_name(kOutput);
   command->add_flag("--force", a.force, kForceText);

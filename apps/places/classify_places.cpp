@@ -5,7 +5,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
-#include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/loops/loop_file.h>
 #include "apps/support/label_file.h"
 
 #include <algorithm>

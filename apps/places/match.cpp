@@ -7,7 +7,7 @@
 #include <placegraph/io/config/yaml_config.h>
 #include <placegraph/io/files/image_file.h>
 #include <placegraph/io/files/image_list.h>
-#include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/loops/loop_file.h>
 #include <placegraph/io/models/vocabulary_file.h>
 #include <placegraph/pipeline/recognizers/image_recognizer.h>
 

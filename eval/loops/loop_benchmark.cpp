@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/eval/loops/loop_benchmark.h>
+#include <placegraph/eval/loops/loop_protocol.h>
+#include <placegraph/eval/loops/score_order.h>
 #include <placegraph/graph/core/error.h>
 
 #include <algorithm>
@@ -100,11 +102,23 @@ std::string to_string(LoopVerdict verdict) {
   return {};
 }
 
-LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
-                          int tolerance) {
-  require(tolerance >= 0, "judge_loops: tolerance is negative");
-  require_distinct(predictions);
-  LoopBenchmark result;
+namespace {
+
+/// The truth with the protocol of these predictions.
+LoopTruth decided(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions) {
+  LoopTruth result = truth;
+  result.protocol = protocol_of(truth, predictions);
+  if (result.protocol == LoopProtocol::kQueryDatabase) result.min_age = 0;
+  // A query's own past; ranges may name other candidates.
+  if (result.protocol == LoopProtocol::kWithinDrive && truth.protocol == LoopProtocol::kUndecided)
+    result.min_age = std::max<std::int64_t>(result.min_age, 1);
+  return result;
+}
+
+/// The candidates of every query, judged one by one.
+std::map<FrameId, Gathered> gather(const LoopTruth& truth,
+                                   const std::vector<LoopPrediction>& predictions, int tolerance,
+                                   LoopBenchmark& result) {
   std::map<FrameId, Gathered> gathered;
   for (const auto& [id, query] : truth.queries) gathered[id].query = query_of(truth, id);
   for (const LoopPrediction& prediction : predictions) {
@@ -123,6 +137,10 @@ LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPredicti
     else
       ++result.dropped;
   }
+  return gathered;
+}
+
+void count(std::map<FrameId, Gathered>& gathered, LoopBenchmark& result) {
   std::vector<ScoredPrediction> scored;
   std::array<int, LoopBenchmark::kRanks.size()> found = {};
   for (auto& [id, of_query] : gathered) {
@@ -137,9 +155,40 @@ LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPredicti
     result.queries.push_back(judged);
   }
   result.predicted_queries = static_cast<int>(scored.size());
-  for (std::size_t i = 0; i < found.size() && result.positives > 0; ++i)
-    result.recall_at[i] = static_cast<double>(found[i]) / result.positives;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (result.positives > 0)
+      result.recall_at[i] = static_cast<double>(found[i]) / result.positives;
+    if (!result.queries.empty())
+      result.recall_at_of_all[i] =
+          static_cast<double>(found[i]) / static_cast<double>(result.queries.size());
+  }
   result.curve = precision_recall(std::move(scored), result.positives);
+}
+
+/// Scores as the recognizer gave them.
+void give_distances_back(LoopBenchmark& result) {
+  for (PrecisionRecallPoint& point : result.curve.curve) point.threshold = -point.threshold;
+  for (JudgedQuery& query : result.queries)
+    if (query.verdict == LoopVerdict::kHit || query.verdict == LoopVerdict::kMiss)
+      query.best.score = -query.best.score;
+}
+
+}  // namespace
+
+LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
+                          const LoopJudgeOptions& options) {
+  require(options.tolerance >= 0, "judge_loops: tolerance is negative");
+  require_distinct(predictions);
+  const bool distances = options.scores == ScoreKind::kDistance;
+  LoopBenchmark result;
+  const LoopTruth judged = decided(truth, predictions);
+  result.protocol = judged.protocol;
+  result.scores = options.scores;
+  std::vector<LoopPrediction> similar = predictions;
+  if (distances)
+    for (LoopPrediction& prediction : similar) prediction.score = -prediction.score;
+  std::map<FrameId, Gathered> gathered = gather(judged, similar, options.tolerance, result);
+  count(gathered, result);
   result.outcome = result.positives > 0
                        ? Outcome::ok()
                        : Outcome::failure(Outcome::Code::kTooFewData,
@@ -149,7 +198,23 @@ LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPredicti
         {DoubtKind::kNotJudged,
          fmt::format("{} predictions for images without ground truth are not judged",
                      result.unjudged)});
+  const std::string order = reversed_scores(similar, result.candidates);
+  if (!order.empty())
+    result.doubts.push_back(
+        {DoubtKind::kScoreOrder,
+         fmt::format("{}: they seem to be {}, and are judged as {} (--scores {})", order,
+                     distances ? "similarities" : "distances",
+                     distances ? "distances" : "similarities",
+                     distances ? "similarity" : "distance")});
+  if (distances) give_distances_back(result);
   return result;
+}
+
+LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
+                          int tolerance) {
+  LoopJudgeOptions options;
+  options.tolerance = tolerance;
+  return judge_loops(truth, predictions, options);
 }
 
 }  // namespace placegraph

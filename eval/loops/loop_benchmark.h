@@ -16,7 +16,7 @@ enum class LoopVerdict {
   kHit,         ///< its best candidate shows the same place
   kMiss,        ///< its best candidate does not show the same place
   kSilent,      ///< nothing was proposed
-  kTooYoung,    ///< all candidates are younger than the truth's min_age
+  kTooYoung,    ///< all candidates are younger than the truth's min_age, or no older images
   kOutOfRange,  ///< all candidates are outside the range of the query
 };
 /// Name of a verdict: "hit", "miss", "silent", "too_young" or "out_of_range".
@@ -38,26 +38,42 @@ struct LoopBenchmark {
   int predicted_queries = 0;  ///< queries with a valid candidate
   int dropped = 0;   ///< predictions that are neither hit nor miss: too young or out of range
   int unjudged = 0;  ///< predictions for images without ground truth
+  static constexpr std::array<int, 4> kRanks = {1, 5, 10, 20};  ///< the ranks of `recall_at`
   /// Share of the positives with a true candidate among the kRanks best; nothing without positives.
-  std::array<std::optional<double>, 3> recall_at;
-  static constexpr std::array<int, 3> kRanks = {1, 5, 10};  ///< the ranks of `recall_at`
+  std::array<std::optional<double>, 4> recall_at;
+  /// The same share of all `queries`, of which those without a match find none; nothing without
+  /// queries. Benchmarks of visual geo-localization and VPR-Bench count so.
+  std::array<std::optional<double>, 4> recall_at_of_all;
+  LoopProtocol protocol = LoopProtocol::kWithinDrive;  ///< the one of the judgement, never undecided
+  ScoreKind scores = ScoreKind::kSimilarity;           ///< as chosen; of `curve` and `queries`
   PrecisionRecall curve;  ///< over the best candidate of every query
-  /// All valid candidates, not only the best; in the order of the queries.
+  /// All valid candidates, not only the best; in the order of the queries. Distances are negated.
   std::vector<ScoredPrediction> candidates;
   std::vector<JudgedQuery> queries;  ///< ascending; all that the truth lists, and all answered ones
-  /// What speaks against the figures: predictions that are not judged.
+  /// What speaks against the figures: predictions that are not judged, scores that seem to be
+  /// distances.
   std::vector<Doubt> doubts;
+};
+
+/// How predictions are judged.
+struct LoopJudgeOptions {
+  int tolerance = 0;  ///< largest distance of a hit from a true match [images]
+  ScoreKind scores = ScoreKind::kSimilarity;  ///< what the scores are
 };
 
 /// Judges the loop closures that a place recognizer proposed for a set of images.
 ///
 /// A query's prediction is its best candidate; it is a hit if it is within `tolerance` images of a
-/// true match. Candidates that the truth excludes (younger than its min_age, outside a query's
-/// range) are left out, right or wrong. Of candidates with equal scores the false ones come first,
-/// so that the order of the predictions has no influence. Precision = hits / (hits + misses) and
-/// recall = hits / positives over the threshold on the score. Throws ArgumentError for a negative
-/// tolerance, a score that is not finite, or a candidate that a query has twice: the ranks count
-/// images.
+/// true match. Candidates that the truth excludes (no older images of the same drive, younger than
+/// its min_age, outside a query's range) are left out, right or wrong. Candidates of equal score are
+/// a set, in which the false ones come first, so that the order of the predictions has no influence.
+/// Precision = hits / (hits + misses) and recall = hits / positives over the threshold on the score.
+/// Throws ArgumentError for a negative tolerance, a score that is not finite, a candidate that a
+/// query has twice (the ranks count images), or a truth whose protocol is doubtful (protocol_of).
+LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
+                          const LoopJudgeOptions& options);
+/// The same of similarities.
+/// Throws as judge_loops with options.
 LoopBenchmark judge_loops(const LoopTruth& truth, const std::vector<LoopPrediction>& predictions,
                           int tolerance = 0);
 

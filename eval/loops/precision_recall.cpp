@@ -18,6 +18,22 @@ void check(const std::vector<ScoredPrediction>& predictions, int positives) {
                                     " positives");
 }
 
+/// The figures over the recall of the right predictions alone.
+void add_figures_of_answers(PrecisionRecall& result) {
+  if (result.curve.empty() || result.curve.back().hits == 0) return;
+  const double hits = result.curve.back().hits;
+  double steps = 0, trapezoids = 0, recall = 0, precision = 1;
+  for (const PrecisionRecallPoint& point : result.curve) {
+    const double gained = point.hits / hits - recall;
+    steps += point.precision * gained;
+    trapezoids += (point.precision + precision) / 2 * gained;
+    recall = point.hits / hits;
+    precision = point.precision;
+  }
+  result.average_precision_of_answers = steps;
+  result.area_of_answers = trapezoids;
+}
+
 }  // namespace
 
 PrecisionRecall precision_recall(std::vector<ScoredPrediction> predictions, int positives) {
@@ -46,6 +62,7 @@ PrecisionRecall precision_recall(std::vector<ScoredPrediction> predictions, int 
   result.average_precision = area;
   result.recall_at_full_precision = full;
   result.f1_max = f1;
+  add_figures_of_answers(result);
   return result;
 }
 

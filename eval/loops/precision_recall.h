@@ -25,6 +25,12 @@ struct PrecisionRecall {
   /// The largest recall at which no prediction is false; 0 if the most certain prediction is false.
   std::optional<double> recall_at_full_precision;
   std::optional<double> f1_max;  ///< largest harmonic mean of precision and recall on the curve
+  /// The sum of average_precision over the recall of the right predictions alone, which ends at 1:
+  /// scikit-learn's average_precision_score of these predictions. Nothing without a right one.
+  std::optional<double> average_precision_of_answers;
+  /// The area under the curve by trapezoids over that recall, from precision 1 at recall 0:
+  /// VPR-Bench's AUC-PR (Zaffar et al. 2021). Nothing without a right prediction.
+  std::optional<double> area_of_answers;
 };
 
 /// Computes the precision-recall curve over the threshold on the predictions' scores.

@@ -40,6 +40,10 @@ const char* to_string(DoubtKind kind) {
       return "trajectories";
     case DoubtKind::kNotJudged:
       return "not_judged";
+    case DoubtKind::kScoreOrder:
+      return "score_order";
+    case DoubtKind::kHeadings:
+      return "headings";
     case DoubtKind::kQueryRefused:
       return "query_refused";
     case DoubtKind::kRecording:

@@ -43,6 +43,8 @@ enum class DoubtKind {
   kGraphFile,       ///< a graph's file has lines or words that are passed over
   kTrajectories,    ///< times or axes of an estimate look like another convention
   kNotJudged,       ///< predictions of loops for images without ground truth are not judged
+  kScoreOrder,      ///< the smaller scores of a recognizer seem to be the more certain ones
+  kHeadings,        ///< the headings of true poses are unknown, or all the same
   kQueryRefused,    ///< an image that should be localized is refused unread
   kRecording,       ///< images, calibration or motion of a recording are not as they should be
   kRetiredOption,   ///< an option of a file is a constant now
@@ -51,8 +53,9 @@ enum class DoubtKind {
 inline constexpr std::array kDoubtKinds = {
     DoubtKind::kChi2Above,      DoubtKind::kChi2Below,      DoubtKind::kNotUnique,
     DoubtKind::kLoopsNotJudged, DoubtKind::kHeldComponents, DoubtKind::kGraphFile,
-    DoubtKind::kTrajectories,   DoubtKind::kNotJudged,      DoubtKind::kQueryRefused,
-    DoubtKind::kRecording,      DoubtKind::kRetiredOption};
+    DoubtKind::kTrajectories,   DoubtKind::kNotJudged,      DoubtKind::kScoreOrder,
+    DoubtKind::kHeadings,       DoubtKind::kQueryRefused,   DoubtKind::kRecording,
+    DoubtKind::kRetiredOption};
 /// The name of a kind: "chi2_above", "chi2_below" and so on.
 const char* to_string(DoubtKind kind);
 

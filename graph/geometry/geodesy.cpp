@@ -2,6 +2,7 @@
 #include <placegraph/graph/geometry/geodesy.h>
 
 #include <GeographicLib/LocalCartesian.hpp>
+#include <GeographicLib/UTMUPS.hpp>
 #include <cmath>
 #include <sstream>
 
@@ -20,6 +21,18 @@ void GeodeticPosition::check() const {
   require_range("latitude", latitude_deg, -90, 90);
   require_range("longitude", longitude_deg, -540, std::nextafter(540.0, 0.0));
   require_range("height", height_m, -1e5, 1e8);
+}
+
+GeodeticPosition from_utm(int zone, bool north, double easting_m, double northing_m) {
+  require(zone >= 1 && zone <= 60, "UTM: there is no zone " + std::to_string(zone));
+  GeodeticPosition position;
+  try {
+    GeographicLib::UTMUPS::Reverse(zone, north, easting_m, northing_m, position.latitude_deg,
+                                   position.longitude_deg);
+  } catch (const GeographicLib::GeographicErr& error) {
+    throw ArgumentError(std::string("UTM: ") + error.what());
+  }
+  return position;
 }
 
 EnuFrame::EnuFrame(const GeodeticPosition& origin) : origin_(origin) {

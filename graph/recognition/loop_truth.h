@@ -3,9 +3,19 @@
 
 #include <cstdint>
 #include <map>
+#include <string>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
+
+/// Which images are candidates of a query.
+enum class LoopProtocol {
+  kUndecided,      ///< the source of the truth does not tell; see judge_loops
+  kWithinDrive,    ///< older images of the query's own drive
+  kQueryDatabase,  ///< images of another set, whose numbers have nothing to do with those of queries
+};
+/// Name of a protocol: "undecided", "within one drive" or "queries against a database".
+std::string to_string(LoopProtocol protocol);
 
 /// The true matches of one image among the candidates first..last.
 struct LoopQuery {
@@ -14,15 +24,16 @@ struct LoopQuery {
   std::vector<FrameId> matches;       ///< ascending; empty: any detection is false
 };
 
-/// Ground truth of place recognition: which images of a sequence show the same place.
+/// Ground truth of place recognition: which images show the same place as a query.
 struct LoopTruth {
   std::map<FrameId, LoopQuery> queries;  ///< true matches by the query image
   /// Whether images that are not listed have no true match, so that any detection there is false;
   /// otherwise detections there are not judged.
   bool unlisted_have_none = false;
-  /// Candidates less than this many images before the query are neither hits nor misses. 0: the
-  /// ranges of the queries alone define the candidates.
+  /// Within one drive: candidates less than this many images before the query are neither hits nor
+  /// misses. 0: the ranges of the queries alone define the candidates.
   std::int64_t min_age = 0;
+  LoopProtocol protocol = LoopProtocol::kUndecided;  ///< which images are candidates
 };
 
 }  // namespace placegraph

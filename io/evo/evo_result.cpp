@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/evo/evo_result.h>
-#include <placegraph/io/evo/npy_array.h>
+#include <placegraph/io/files/npy_array.h>
 #include <placegraph/io/evo/zip_archive.h>
 #include <placegraph/io/files/text_file.h>
 

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/colmap_cameras.h>
 #include <placegraph/io/exports/colmap_model.h>
-#include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/files/little_endian.h>
 
 #include <algorithm>
 #include <iterator>

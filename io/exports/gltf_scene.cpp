@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/base64.h>
 #include <placegraph/io/exports/gltf_scene.h>
-#include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/files/little_endian.h>
 
 #include <nlohmann/json.hpp>
 

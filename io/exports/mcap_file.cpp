@@ -1,5 +1,5 @@
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/files/little_endian.h>
 #include <placegraph/io/exports/mcap_file.h>
 #include <zlib.h>
 

@@ -1,5 +1,5 @@
 #include <fmt/format.h>
-#include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/files/little_endian.h>
 #include <placegraph/io/exports/ply_header.h>
 #include <placegraph/io/exports/surface_ply.h>
 

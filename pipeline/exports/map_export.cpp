@@ -7,7 +7,7 @@
 #include <placegraph/io/files/output_file.h>
 #include <placegraph/io/graphs/g2o.h>
 #include <placegraph/io/graphs/place_graph_export.h>
-#include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/loops/loop_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 #include <placegraph/pipeline/exports/colmap_export.h>
 #include <placegraph/pipeline/exports/dense_export.h>

@@ -1,6 +1,6 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/io/exports/base64.h>
-#include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/files/little_endian.h>
 #include <placegraph/io/exports/mcap_file.h>
 #include <placegraph/pipeline/exports/mcap_export.h>
 #include <placegraph/pipeline/map/map_geometry.h>

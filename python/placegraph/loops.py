@@ -2,10 +2,13 @@
 
     from placegraph import loops
 
-    truth = loops.LoopTruth.from_poses(dataset.ground_truth)
+    truth = loops.LoopTruth.from_poses(dataset.ground_truth)  # one drive that meets itself
     result = loops.score((query, candidate, score), truth)
     print(result["ap"], result.curve["recall"])
     result.plot()
+
+    truth = loops.LoopTruth.between(queries, database)  # positions of two sets of images
+    result = loops.score((indices, distances), truth, scores="distance")  # a search's N x K arrays
 """
 
 from __future__ import annotations
@@ -13,11 +16,11 @@ from __future__ import annotations
 import copy
 import os
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from . import _core
-from ._core import LoopTruth
+from ._core import ImageSet, LoopTruth
 from ._notebook import figure_html
 from ._tables import table_of
 from ._types import Path
@@ -33,16 +36,19 @@ if TYPE_CHECKING:
 
     Predictions: TypeAlias = (
         Path | Mapping[str, ArrayLike] | pandas.DataFrame | Sequence[ArrayLike])
-    Truth: TypeAlias = Path | LoopTruth | _core.Trajectory
+    Truth: TypeAlias = Path | LoopTruth | _core.Trajectory | ArrayLike
 
-__all__ = ["LoopScore", "LoopTruth", "RevisitOptions", "match", "read_predictions", "score"]
+__all__ = ["ImageSet", "LoopScore", "LoopTruth", "RevisitOptions", "match", "read_array",
+           "read_predictions", "score", "truth_of_lists"]
 
-_KEYS = ("positives", "answered", "hits", "misses", "dropped", "unjudged", "r_at_1", "r_at_5",
-         "r_at_10", "ap", "recall_at_100p", "f1_max")
+_KEYS = ("positives", "answered", "hits", "misses", "dropped", "unjudged", "queries",
+         "r_at_1", "r_at_5", "r_at_10", "r_at_20",
+         "r_at_1_of_all", "r_at_5_of_all", "r_at_10_of_all", "r_at_20_of_all",
+         "ap", "ap_of_answers", "auc_of_answers", "recall_at_100p", "f1_max")
 
 
 class RevisitOptions(kinds.RevisitOptions):
-    """Criteria for a revisit of a place, of `LoopTruth.from_poses`."""
+    """Criteria for a revisit of a place, of `LoopTruth.from_poses` and `LoopTruth.between`."""
 
     __slots__ = ()
     _kind = _core.RevisitOptionSet
@@ -107,8 +113,9 @@ class LoopScore:
         last = len(curve["hits"]) - 1
         counts = [int(curve[key][last]) if last >= 0 else 0 for key in ("hits", "misses")]
         values = (core.positives, core.predicted_queries, *counts, core.dropped, core.unjudged,
-                  *core.recall_at, core.average_precision, core.recall_at_full_precision,
-                  core.f1_max)
+                  len(core.query_table()["query"]), *core.recall_at, *core.recall_at_of_all,
+                  core.average_precision, core.average_precision_of_answers, core.area_of_answers,
+                  core.recall_at_full_precision, core.f1_max)
         return dict(zip(_KEYS, values))
 
     def __getitem__(self, key: str) -> float | None:
@@ -160,35 +167,137 @@ def match(images: Iterable[NDArray[np.uint8]], recognizer: RecognizerArgument, *
     return table_of(_core.match_images(images, recognizer, min_age))
 
 
-def read_predictions(path: Path, format: str = "scores") -> pandas.DataFrame:
+def read_array(path: Path, name: str | None = None) -> NDArray[Any]:
+    """The array of a file of numpy (.npy, .npz), MATLAB (.mat) or HDF5 (.h5, .hdf5).
+
+    `name`: the array to read, where a file has several. Nothing is unpickled. MATLAB's files need
+    scipy, or h5py from version 7.3 on, and so do those of HDF5. Raises FileError for a file that has
+    no such array, or several and no `name`.
+    """
+    import numpy
+
+    path = os.fspath(path)
+    suffix = os.path.splitext(path)[1].lower()
+    if suffix == ".npy":
+        return _unpickled(path, lambda: numpy.load(path, allow_pickle=False))
+    if suffix == ".npz":
+        with numpy.load(path, allow_pickle=False) as archive:
+            chosen = _chosen(path, list(archive.files), name)
+            return _unpickled(path, lambda: archive[chosen])
+    if suffix == ".mat":
+        from scipy import io
+
+        try:
+            arrays = io.loadmat(path)
+        except NotImplementedError:  # version 7.3 is HDF5, with transposed arrays
+            return _of_hdf5(path, name).T
+        names = [key for key in arrays if not key.startswith("__")]
+        return numpy.asarray(arrays[_chosen(path, names, name)])
+    return _of_hdf5(path, name)
+
+
+def _unpickled(path: str, load: Callable[[], Any]) -> NDArray[Any]:
+    try:
+        return load()
+    except ValueError as error:
+        raise _core.FileError(
+            f"{path}: has objects of Python, which are not unpickled: load the file yourself if you "
+            "trust it (numpy.load with allow_pickle), and give the array") from error
+
+
+def _of_hdf5(path: str, name: str | None) -> NDArray[Any]:
+    import h5py
+
+    with h5py.File(path, "r") as file:
+        names: list[str] = []
+        file.visititems(lambda key, item: names.append(key)
+                        if isinstance(item, h5py.Dataset) and item.ndim > 0 else None)
+        return file[_chosen(path, names, name)][()]
+
+
+def _chosen(path: str, names: list[str], name: str | None) -> str:
+    if name is None and len(names) == 1:
+        return names[0]
+    if name is None or name not in names:
+        wanted = "one array" if name is None else f"an array {name}"
+        raise _core.FileError(f"{path}: {wanted} is needed, there are {', '.join(sorted(names))}")
+    return name
+
+
+_ARRAY_FILES = (".npz", ".mat", ".h5", ".hdf5")
+
+
+def _is_array_file(path: object) -> bool:
+    return (isinstance(path, (str, os.PathLike))
+            and os.path.splitext(os.fspath(path))[1].lower() in _ARRAY_FILES)
+
+
+def truth_of_lists(
+    rows: Sequence[tuple[int, Sequence[int]]] | NDArray[Any], *, min_age: int = 0,
+    within: bool | None = None,
+) -> LoopTruth:
+    """The truth of pairs of a query and its matches, as VPR-Bench's array (N x 2) holds them.
+
+    Queries with no matches are listed with none. `min_age` and `within` as of `LoopTruth`.
+    """
+    matches = {int(query): sorted({int(match) for match in found}) for query, found in rows}
+    return LoopTruth(matches, min_age=min_age, within=within)
+
+
+def read_predictions(
+    path: Path, format: str = "scores", *, top_k_scores: Path | None = None,
+    queries: ImageSet | None = None, database: ImageSet | None = None,
+) -> pandas.DataFrame:
     """Predictions of a file: query, candidate, score.
 
-    `format`: 'scores' (lines `query candidate score`), 'ibow' or 'run' (loops.csv of a run).
+    `format`: 'scores' (lines `query candidate score`, with a header or without), 'ibow', 'run'
+    (loops.csv of a run), 'topk' (the best candidates of a query in a row, with `top_k_scores` of the
+    same shape) or 'matrix' (the score of each pair). `queries` and `database`: images whose names
+    stand in the file.
     """
-    return table_of(_core.read_loop_predictions(os.fspath(path), format))
+    columns, _ = _core.read_loop_predictions(
+        os.fspath(path), format, "" if top_k_scores is None else os.fspath(top_k_scores), queries,
+        database)
+    return table_of(columns)
 
 
-def _columns(predictions: Predictions, format: str) -> tuple[ArrayLike, ArrayLike, ArrayLike]:
+def _columns(predictions: Predictions, format: str) -> tuple[Any, str | None]:
+    """Columns query, candidate and score, and what the scores are said to be."""
+    import numpy
+
+    if _is_array_file(predictions):
+        predictions = read_array(predictions)  # type: ignore[arg-type]
     if isinstance(predictions, (str, os.PathLike)):
-        predictions = _core.read_loop_predictions(os.fspath(predictions), format)
+        return _core.read_loop_predictions(os.fspath(predictions), format)
     if isinstance(predictions, Mapping) or hasattr(predictions, "columns"):
         table: Any = predictions
-        for name in ("query", "candidate", "score"):
-            if name not in table:
+        names = list(table)
+        last = "distance" if "score" not in names and "distance" in names else "score"
+        for name in ("query", "candidate", last):
+            if name not in names:
                 raise _core.ArgumentError(f"predictions: there is no column {name}")
-        return table["query"], table["candidate"], table["score"]
-    if not isinstance(predictions, Sequence) or len(predictions) != 3:
+        kind = "distance" if last == "distance" else None
+        return {key: table[of] for key, of in
+                (("query", "query"), ("candidate", "candidate"), ("score", last))}, kind
+    if isinstance(predictions, numpy.ndarray) and predictions.ndim == 2:
+        return _core.matrix_columns(predictions), None
+    if not isinstance(predictions, Sequence) or len(predictions) not in (2, 3):
         raise _core.ArgumentError(
-            "predictions: three arrays (query, candidate, score), a table of them or a file are "
-            "needed")
-    return predictions[0], predictions[1], predictions[2]
+            "predictions: three arrays (query, candidate, score), candidates and scores of a search "
+            "(Q x K), a matrix of scores, a table or a file are needed")
+    if len(predictions) == 2:
+        return _core.search_columns(predictions[0], predictions[1]), None
+    return dict(zip(("query", "candidate", "score"), predictions)), None
 
 
-def _truth(truth: Truth, options: RevisitOptions | None, min_age: int | None) -> LoopTruth:
+def _truth(truth: Truth, options: RevisitOptions | None, min_age: int | None,
+           within: bool | None) -> LoopTruth:
+    import numpy
+
     if isinstance(truth, LoopTruth):
-        if options is not None or min_age is not None:
+        if options is not None or min_age is not None or within is not None:
             raise _core.ArgumentError(
-                "truth: options and min_age are those of the LoopTruth that is given")
+                "truth: options, min_age and within are those of the LoopTruth that is given")
         return truth
     if isinstance(truth, _core.Trajectory):
         chosen = given_or_default(options, RevisitOptions)
@@ -196,9 +305,16 @@ def _truth(truth: Truth, options: RevisitOptions | None, min_age: int | None) ->
             chosen = copy.deepcopy(chosen)
             chosen.min_age = min_age
         return LoopTruth.from_poses(truth, chosen)
-    if not isinstance(truth, (str, os.PathLike)):
-        raise _core.ArgumentError("truth: a LoopTruth, a Trajectory or a file is needed")
-    return LoopTruth.read(os.fspath(truth), min_age)
+    if _is_array_file(truth):
+        truth = read_array(truth)  # type: ignore[arg-type]
+    if isinstance(truth, (str, os.PathLike)):
+        return LoopTruth.read(os.fspath(truth), min_age, within)
+    if isinstance(truth, numpy.ndarray) and truth.ndim == 2:
+        if not numpy.isin(truth, (0, 1)).all():
+            raise _core.ArgumentError("truth: a matrix of matches has values other than 0 and 1")
+        return LoopTruth.from_matrix(truth.astype(bool), min_age, within)
+    raise _core.ArgumentError(
+        "truth: a LoopTruth, a Trajectory, a matrix (N x M) of matches or a file is needed")
 
 
 def score(
@@ -207,26 +323,35 @@ def score(
     *,
     tolerance: int = 0,
     min_age: int | None = None,
+    within: bool | None = None,
+    scores: str | None = None,
     options: RevisitOptions | None = None,
     format: str = "scores",
     name: str = "predictions",
 ) -> LoopScore:
     """Judges the loop closures that a place recognizer proposed for a set of images.
 
-    `predictions`: arrays query, candidate and score (N each), a table with these columns, or a
-    file in a `format` of `read_predictions`. A query's prediction is its best candidate; it is a
-    hit if it is within `tolerance` images of a true match. `truth`: a LoopTruth, the file of one,
-    or true poses, of which `options` say what is a revisit. `min_age`: candidates less than this
-    many images before the query are neither hits nor misses; by default 300, and 0 for a file that
-    lists the candidates of each query. Warns with Doubt of predictions that are not judged;
-    NoResult: no query has a true match.
+    `predictions`: arrays query, candidate and score (N each), a table with these columns, arrays
+    candidate and score of a search (Q x K, -1: none), a matrix of scores (Q x M, NaN: none), or a
+    file in a `format` of `read_predictions`. A query's prediction is its best candidate; it is a hit
+    if it is within `tolerance` images of a true match. `truth`: a LoopTruth, a matrix of matches
+    (Q x M), the file of one, or true poses, of which `options` say what is a revisit. `min_age`:
+    candidates less than this many images before the query are neither hits nor misses; by default
+    300, and 0 for a file that lists the candidates of each query; 0 or `within` False: candidates
+    are images of a database. `scores`: 'similarity' or 'distance' (the smallest is best); by default
+    as the column is called, else similarity. Warns with Doubt of predictions that are not judged and
+    of scores that seem to be distances; NoResult: no query has a true match.
     """
-    query, candidate, scores = _columns(predictions, format)
-    true = _truth(truth, options, min_age)
-    judged = _core.judge_loops(true, query, candidate, scores, tolerance)
+    columns, kind = _columns(predictions, format)
+    true = _truth(truth, options, min_age, within)
+    judged = _core.judge_loops(true, columns["query"], columns["candidate"], columns["score"],
+                               tolerance, scores or kind or "similarity")
     if not judged.ok:
         raise _core.NoResult(f"{name}: {judged.reason}")
     for doubt in judged.doubts:
         warnings.warn(f"{name}: {doubt}", _core.Doubt, stacklevel=2)
-    kind = "true poses" if isinstance(truth, _core.Trajectory) else "listed matches"
-    return LoopScore(judged, name, f"{kind}, candidates at least {true.min_age} images older")
+    source = "true poses" if isinstance(truth, _core.Trajectory) else "listed matches"
+    protocol = f"{judged.protocol}: {source}"
+    if true.min_age > 0 and judged.protocol == "within one drive":
+        protocol += f", candidates at least {true.min_age} images older"
+    return LoopScore(judged, name, protocol)

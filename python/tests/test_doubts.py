@@ -80,6 +80,27 @@ def of_loops(folder: pathlib.Path) -> tuple[list[str], Callable[[], object]]:
             lambda: loops.score(predictions, truth))
 
 
+def of_distances(folder: pathlib.Path) -> tuple[list[str], Callable[[], object]]:
+    """Three candidates of each query, the smallest score first."""
+    truth, predictions = folder / "truth.txt", folder / "predictions.txt"
+    truth.write_text("".join(f"{q} {q}\n" for q in range(20)))
+    predictions.write_text("".join(f"{q} {(q + k) % 20} 0.{k + 1}\n" for q in range(20)
+                                   for k in range(3)))
+    return (["loops", "--predictions", str(predictions), "--truth", str(truth), "--min-age", "0"],
+            lambda: loops.score(predictions, truth, min_age=0))
+
+
+def of_positions(folder: pathlib.Path) -> tuple[list[str], Callable[[], object]]:
+    """True positions without headings, of a place that is visited twice."""
+    truth, predictions = folder / "truth.txt", folder / "predictions.txt"
+    truth.write_text("".join(f"{i} {i % 30} 0 0\n" for i in range(60)))
+    predictions.write_text("".join(f"{q} {q - 30} 0.5\n" for q in range(30, 60)))
+    options = loops.RevisitOptions()
+    options.min_age = 20
+    return (["loops", "--predictions", str(predictions), "--true-poses", str(truth), "--min-age", "20"],
+            lambda: loops.score(predictions, loops.ImageSet.read(truth).poses, options=options))
+
+
 def of_options(folder: pathlib.Path, drive: pathlib.Path) -> tuple[list[str], Callable[[], object]]:
     path = folder / "mine.yaml"
     path.write_text("odometry:\n  tracker:\n    min_sigma_px: 2\n")
@@ -107,7 +128,8 @@ def test_both_doors_say_the_same(
     if kind in GRAPHS:
         arguments, call = of_graph(kind, tmp_path)
     else:
-        makers = {"trajectories": of_trajectories, "not_judged": of_loops}
+        makers = {"trajectories": of_trajectories, "not_judged": of_loops,
+                  "score_order": of_distances, "headings": of_positions}
         with_drive = {"retired_option": of_options, "recording": of_recording}
         if kind in makers:
             arguments, call = makers[kind](tmp_path)

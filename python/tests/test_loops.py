@@ -100,11 +100,119 @@ def test_truth_of_poses_is_that_of_distances() -> None:
     assert by_poses.metrics == loops.score(table, truth).metrics
 
 
-def test_truth_of_a_matrix() -> None:
-    matrix = np.zeros((6, 6), bool)
-    matrix[5, 1] = matrix[1, 5] = matrix[4, 0] = True
-    truth = loops.LoopTruth.from_matrix(matrix)
-    assert truth.matches == {0: [], 1: [], 2: [], 3: [], 4: [0], 5: [1]}
+def test_a_square_matrix_is_of_one_drive_or_of_two_sets() -> None:
+    matrix = np.eye(30, dtype=bool) | np.eye(30, k=1, dtype=bool) | np.eye(30, k=-1, dtype=bool)
+    query = np.arange(30)
+    with pytest.raises(pg.ArgumentError, match="may be of one drive or of queries and a database"):
+        loops.score((query, query, np.linspace(1, 2, 30)), loops.LoopTruth.from_matrix(matrix))
+    for truth in (loops.LoopTruth.from_matrix(matrix, within=False),
+                  loops.LoopTruth.from_matrix(matrix, min_age=0)):
+        two = loops.score((query, query, np.linspace(1, 2, 30)), truth)
+        assert two["r_at_1"] == two["ap"] == 1
+        assert two.protocol.startswith("queries against a database")
+    one = loops.score((query[1:], query[:-1], np.linspace(1, 2, 29)),
+                      loops.LoopTruth.from_matrix(matrix, within=True))
+    assert one["positives"] == 29 and one["r_at_1"] == 1
+    assert one.protocol.startswith("within one drive")
+
+
+@pytest.mark.parametrize("form", ["arrays", "table", "search", "matrix"])
+@pytest.mark.parametrize("suffix", ["", ".npy", ".npz"])
+def test_two_sets_have_one_result_in_every_form(tmp_path: pathlib.Path, form: str,
+                                                suffix: str) -> None:
+    random = np.random.default_rng(4)
+    matches = random.random((12, 40)) < 0.08
+    matches[np.arange(12), random.integers(0, 40, 12)] = True
+    scores = random.random((12, 40)) + matches * random.random((12, 40))
+    best = np.argsort(-scores, axis=1)[:, :40]
+    query = np.repeat(np.arange(12), 40)
+    predictions = {
+        "arrays": (query, best.ravel(), np.take_along_axis(scores, best, 1).ravel()),
+        "table": pandas.DataFrame({"query": query, "candidate": best.ravel(), "distance":
+                                   -np.take_along_axis(scores, best, 1).ravel()}),
+        "search": (best, np.take_along_axis(scores, best, 1)),
+        "matrix": scores,
+    }[form]
+    truth: object = matches
+    if suffix == ".npy":
+        np.save(tmp_path / "truth.npy", matches)
+    elif suffix == ".npz":
+        np.savez(tmp_path / "truth.npz", matches=matches)
+    if suffix:
+        truth = tmp_path / f"truth{suffix}"
+    result = loops.score(predictions, truth)  # type: ignore[arg-type]
+    right = np.take_along_axis(matches, best, 1)
+    for k in (1, 5, 10, 20):
+        assert result[f"r_at_{k}"] == pytest.approx(right[:, :k].any(axis=1).mean())
+    assert result.protocol.startswith("queries against a database")
+    assert loops.score(predictions, loops.truth_of_lists(
+        [(q, np.flatnonzero(row)) for q, row in enumerate(matches)])).metrics == result.metrics
+
+
+def reference_curve(hit: np.ndarray, score: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Precision and recall of scikit-learn's precision_recall_curve, written out."""
+    threshold = np.unique(score)
+    precision = [hit[score >= t].mean() for t in threshold]
+    recall = [hit[score >= t].sum() / hit.sum() for t in threshold]
+    return np.array([*precision, 1.0]), np.array([*recall, 0.0])
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_figures_are_those_of_scikit_learn_and_vpr_bench(seed: int) -> None:
+    random = np.random.default_rng(seed)
+    n = int(random.integers(5, 60))
+    matches = random.random((n, 30)) < 0.1
+    candidate = random.integers(0, 30, n)
+    candidate[::2] = [np.flatnonzero(row)[0] if row.any() else 0 for row in matches[::2]]
+    hit = matches[np.arange(n), candidate]
+    if not hit.any():
+        pytest.skip("no hit")
+    score = np.round(random.random(n) + 0.3 * hit, 1)  # with ties
+    result = loops.score((np.arange(n), candidate, score), matches)
+    precision, recall = reference_curve(hit, score)
+    assert result["ap_of_answers"] == pytest.approx(-np.sum(np.diff(recall) * precision[:-1]))
+    area = -np.sum(np.diff(recall) * (precision[1:] + precision[:-1]) / 2)
+    assert result["auc_of_answers"] == pytest.approx(area)
+    assert result["r_at_1_of_all"] == pytest.approx(hit.mean())
+    assert result["r_at_1"] == pytest.approx(hit.sum() / matches.any(axis=1).sum())
+    assert result["ap"] == pytest.approx(
+        result["ap_of_answers"] * hit.sum() / matches.any(axis=1).sum())
+
+
+def test_objects_of_python_are_not_unpickled(tmp_path: pathlib.Path) -> None:
+    rows = np.empty((2, 2), dtype=object)
+    for query, found in ((0, [1, 2]), (1, [2])):
+        rows[query] = query, found
+    np.save(tmp_path / "ground_truth_new.npy", rows)
+    with pytest.raises(pg.FileError, match="objects of Python"):
+        loops.LoopTruth.read(tmp_path / "ground_truth_new.npy")
+    with pytest.raises(pg.FileError, match="not unpickled"):
+        loops.read_array(tmp_path / "ground_truth_new.npy")
+    assert loops.truth_of_lists(rows).matches == {0: [1, 2], 1: [2]}
+
+
+def test_two_sets_by_their_positions(program: str, tmp_path: pathlib.Path) -> None:
+    random = np.random.default_rng(1)
+    database = np.column_stack([np.arange(80.0), np.zeros(80)])
+    queries = database[10:70:3] + random.normal(0, 0.4, (20, 2))
+    for name, rows in (("queries.csv", queries), ("database.csv", database)):
+        pandas.DataFrame(rows, columns=["easting", "northing"]).to_csv(tmp_path / name, index=False)
+    candidate = np.round(queries[:, 0]).astype(int) + random.integers(-3, 4, 20)
+    pandas.DataFrame({"query": np.arange(20), "candidate": candidate,
+                      "distance": random.random(20)}).to_csv(tmp_path / "found.csv")
+    options = loops.RevisitOptions()
+    options.same.radius_m, options.same.heading_deg = 2, 180
+    sets = [loops.ImageSet.read(tmp_path / name) for name in ("queries.csv", "database.csv")]
+    truth = loops.LoopTruth.between(*sets, options)
+    apart = np.linalg.norm(queries[:, None] - database, axis=2)
+    assert truth.matches == {q: np.flatnonzero(row <= 2).tolist() for q, row in enumerate(apart)}
+    result = loops.score(tmp_path / "found.csv", truth)
+    command = [program, "loops", "--predictions", str(tmp_path / "found.csv"), "--queries",
+               str(tmp_path / "queries.csv"), "--database", str(tmp_path / "database.csv"),
+               "--radius", "2", "--heading", "180", "--json"]
+    printed = json.loads(subprocess.run(command, check=True, capture_output=True).stdout)
+    assert printed["scores"] == "distance" and printed["protocol"].startswith("queries against")
+    assert result.metrics == {key: printed[key] for key in result.metrics}
 
 
 def test_reliability_of_probabilities() -> None:

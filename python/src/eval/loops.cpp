@@ -1,8 +1,10 @@
 #include <placegraph/eval/loops/loop_benchmark.h>
+#include <placegraph/eval/loops/loop_protocol.h>
 #include <placegraph/eval/loops/loop_truth_from_poses.h>
 #include <placegraph/eval/loops/reliability.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/loops/image_set.h>
+#include <placegraph/io/loops/loop_file.h>
 
 #include <fmt/format.h>
 #include <nanobind/stl/map.h>
@@ -26,11 +28,10 @@ FrameId image_id(std::int64_t value, const char* argument) {
 }
 
 LoopTruth truth_of_lists(const std::map<std::int64_t, std::vector<std::int64_t>>& matches,
-                         bool unlisted_have_none, std::int64_t min_age) {
-  require(min_age >= 0, "min_age: it must not be negative");
+                         bool unlisted_have_none, std::int64_t min_age,
+                         std::optional<bool> within) {
   LoopTruth truth;
   truth.unlisted_have_none = unlisted_have_none;
-  truth.min_age = min_age;
   for (const auto& [query, list] : matches) {
     LoopQuery& entry = truth.queries[image_id(query, "matches")];
     for (const std::int64_t match : list) entry.matches.push_back(image_id(match, "matches"));
@@ -38,28 +39,46 @@ LoopTruth truth_of_lists(const std::map<std::int64_t, std::vector<std::int64_t>>
     const auto last = std::unique(entry.matches.begin(), entry.matches.end());
     entry.matches.erase(last, entry.matches.end());
   }
+  choose_protocol(truth, {within, min_age}, 0);
   return truth;
 }
 
-LoopTruth truth_of_matrix(const ArrayArgument<bool>& argument, std::int64_t min_age) {
+LoopTruth truth_of_matrix(const ArrayArgument<bool>& argument, std::optional<std::int64_t> min_age,
+                          std::optional<bool> within) {
   const auto matrix = argument.get("matrix", {kAny, kAny});
-  require(matrix.shape(0) == matrix.shape(1), "matrix: it must be square");
-  std::map<std::int64_t, std::vector<std::int64_t>> matches;
-  const std::size_t n = matrix.shape(0);
-  for (std::size_t query = 0; query < n; ++query) {
-    auto& list = matches[static_cast<std::int64_t>(query)];
-    for (std::size_t match = 0; match < query; ++match)
-      if (matrix.data()[n * query + match]) list.push_back(static_cast<std::int64_t>(match));
-  }
-  return truth_of_lists(matches, true, min_age);
+  const std::size_t columns = matrix.shape(1);
+  require(columns > 0, "matrix: it has no columns");
+  LoopTruth truth =
+      loop_truth_of_matrix({matrix.data(), matrix.data() + matrix.shape(0) * columns}, columns);
+  choose_protocol(truth, {within, min_age}, 0);
+  return truth;
 }
 
-LoopTruth truth_of_file(const std::filesystem::path& path, std::optional<std::int64_t> min_age) {
-  require(min_age.value_or(0) >= 0, "min_age: it must not be negative");
+LoopTruth truth_of_file(const std::filesystem::path& path, std::optional<std::int64_t> min_age,
+                        std::optional<bool> within) {
   LoopTruthFile file = read_loop_truth(path.string());
-  const bool ranges = file.format == LoopTruthFormat::kRanges;
-  file.truth.min_age = min_age.value_or(ranges ? 0 : RevisitOptions().min_age);
+  choose_protocol(file.truth, {within, min_age}, RevisitOptions().min_age);
   return std::move(file.truth);
+}
+
+LoopTruth truth_of_poses(const Trajectory& truth, const OptionsArgument<RevisitOptions>& options) {
+  const RevisitOptions chosen = options.get();
+  chosen.check();
+  for (const Doubt& doubt : heading_doubts(truth, chosen.same)) warn(doubt.text);
+  const WithoutGil released;
+  return loop_truth_from_poses(truth, chosen);
+}
+
+LoopTruth truth_of_sets(const ImageSet& queries, const ImageSet& database,
+                        const OptionsArgument<RevisitOptions>& options) {
+  const RevisitOptions chosen = options.get();
+  ImageSet asking = queries, answering = database;
+  put_in_one_frame(answering, asking);
+  Trajectory both = answering.poses;
+  both.has_orientation &= asking.poses.has_orientation;
+  for (const Doubt& doubt : heading_doubts(both, chosen.same)) warn(doubt.text);
+  const WithoutGil released;
+  return loop_truth_between(asking.poses, answering.poses, chosen.same);
 }
 
 std::map<std::int64_t, std::vector<std::int64_t>> lists_of(const LoopTruth& truth) {
@@ -72,15 +91,20 @@ std::map<std::int64_t, std::vector<std::int64_t>> lists_of(const LoopTruth& trut
 }
 
 LoopFileFormat format_of(const std::string& name) {
-  static const std::vector<std::string> names = {"scores", "ibow", "run"};
+  static const std::vector<std::string> names = {"scores", "ibow", "run", "topk", "matrix"};
   return choice_of<LoopFileFormat>(name, names, "format");
 }
 
+ScoreKind kind_of(const std::string& name) {
+  static const std::vector<std::string> names = {"similarity", "distance"};
+  return choice_of<ScoreKind>(name, names, "scores");
+}
+
 /// Columns of predictions.
-Table read_predictions(const std::string& path, const std::string& format) {
+Table columns_of(const std::vector<LoopPrediction>& predictions) {
   std::vector<std::int64_t> query, candidate;
   std::vector<double> score;
-  for (const LoopPrediction& each : read_loop_predictions(path, format_of(format))) {
+  for (const LoopPrediction& each : predictions) {
     query.push_back(each.query.value());
     candidate.push_back(each.candidate.value());
     score.push_back(each.score);
@@ -91,6 +115,36 @@ Table read_predictions(const std::string& path, const std::string& format) {
   columns["candidate"] = owned_array(std::move(candidate), {n});
   columns["score"] = owned_array(std::move(score), {n});
   return columns;
+}
+
+/// Columns of the predictions of a file, and what its scores are.
+std::pair<Table, std::optional<std::string>> read_predictions(const std::string& path,
+                                                              const std::string& format,
+                                                              const std::string& top_k_scores,
+                                                              const ImageSet* queries,
+                                                              const ImageSet* database) {
+  const LoopPredictionFile file = read_loop_prediction_file(
+      path, {format_of(format), top_k_scores, queries, database});
+  std::optional<std::string> kind;
+  if (file.scores) kind = to_string(*file.scores);
+  return {columns_of(file.predictions), kind};
+}
+
+Table search_columns(const ArrayArgument<std::int64_t>& candidate,
+                     const ArrayArgument<double>& score) {
+  const auto candidates = candidate.get("candidate", {kAny, kAny});
+  const auto scores = score.get("score", {kAny, kAny});
+  require_same_rows(scores.shape(0), candidates.shape(0), "score", "candidate");
+  const std::size_t columns = candidates.shape(1), count = candidates.shape(0) * columns;
+  require(scores.shape(1) == columns, "score: it has another number of columns than candidate");
+  return columns_of(predictions_of_search({candidates.data(), candidates.data() + count},
+                                          {scores.data(), scores.data() + count}, columns));
+}
+
+Table matrix_columns(const ArrayArgument<double>& score) {
+  const auto scores = score.get("score", {kAny, kAny});
+  return columns_of(predictions_of_matrix(
+      {scores.data(), scores.data() + scores.shape(0) * scores.shape(1)}, scores.shape(1)));
 }
 
 std::vector<LoopPrediction> predictions_of(const ArrayArgument<std::int64_t>& query,
@@ -112,11 +166,13 @@ std::vector<LoopPrediction> predictions_of(const ArrayArgument<std::int64_t>& qu
 
 LoopBenchmark judged(const LoopTruth& truth, const ArrayArgument<std::int64_t>& query,
                      const ArrayArgument<std::int64_t>& candidate,
-                     const ArrayArgument<double>& score, int tolerance) {
+                     const ArrayArgument<double>& score, int tolerance,
+                     const std::string& scores) {
   require(tolerance >= 0, "tolerance: it must not be negative");
   const std::vector<LoopPrediction> predictions = predictions_of(query, candidate, score);
+  const LoopJudgeOptions options{tolerance, kind_of(scores)};
   const WithoutGil released;
-  return judge_loops(truth, predictions, tolerance);
+  return judge_loops(truth, predictions, options);
 }
 
 /// Columns of a precision-recall curve.
@@ -192,30 +248,36 @@ void bind_truth(nb::module_& m) {
       .def(
           "__init__",
           [](LoopTruth* self, const std::map<std::int64_t, std::vector<std::int64_t>>& matches,
-             bool unlisted_have_none, std::int64_t min_age) {
-            new (self) LoopTruth(truth_of_lists(matches, unlisted_have_none, min_age));
+             bool unlisted_have_none, std::int64_t min_age, std::optional<bool> within) {
+            new (self) LoopTruth(truth_of_lists(matches, unlisted_have_none, min_age, within));
           },
-          "matches"_a, "unlisted_have_none"_a = true, "min_age"_a = 0,
+          "matches"_a, "unlisted_have_none"_a = true, "min_age"_a = 0, "within"_a = nb::none(),
           "The true matches of each query image.\n\n`unlisted_have_none`: images that are not "
           "listed have no true match; otherwise predictions there are not judged. Candidates less "
-          "than `min_age` images before the query are neither hits nor misses.")
-      .def_static("from_matrix", &truth_of_matrix, "matrix"_a, "min_age"_a = 0,
-                  "The truth of a square matrix of bool (N x N) whose row is the query and whose "
-                  "column the older image.")
+          "than `min_age` images before the query are neither hits nor misses; with 0, candidates "
+          "are images of a database, unless `within` says that they are of the same drive.")
+      .def_static("from_matrix", &truth_of_matrix, "matrix"_a, "min_age"_a = nb::none(),
+                  "within"_a = nb::none(),
+                  "The truth of a matrix of bool (N x M) whose row is the query and whose column "
+                  "the candidate.\n\nRows and columns are one drive if `within` is true or "
+                  "`min_age` is above 0, and queries and a database if `within` is false or "
+                  "`min_age` is 0. Without both, a matrix that is not square is of two sets, and a "
+                  "square one is decided with the predictions, or refused.")
       .def_static("read", &truth_of_file, "path"_a, "min_age"_a = nb::none(),
+                  "within"_a = nb::none(),
                   "Reads true loop closures in any of the three formats of `placegraph loops "
                   "--truth`.\n\n`min_age`: by default 300 images, and 0 for a file that lists the "
-                  "candidates of each query.")
-      .def_static(
-          "from_poses",
-          [](const Trajectory& truth, const OptionsArgument<RevisitOptions>& options) {
-            const RevisitOptions chosen = options.get();
-            const WithoutGil released;
-            return loop_truth_from_poses(truth, chosen);
-          },
-          "truth"_a, "options"_a = nb::none(), doc("loop_truth_from_poses"))
+                  "candidates of each query. `within`: whether candidates are of the queries' own "
+                  "drive, as of `from_matrix`.")
+      .def_static("from_poses", &truth_of_poses, "truth"_a, "options"_a = nb::none(),
+                  doc("loop_truth_from_poses"))
+      .def_static("between", &truth_of_sets, "queries"_a, "database"_a, "options"_a = nb::none(),
+                  doc("loop_truth_between"))
       .def_prop_ro("matches", &lists_of, "True matches by the query image.")
       .def_ro("min_age", &LoopTruth::min_age, doc("LoopTruth::min_age"))
+      .def_prop_ro(
+          "protocol", [](const LoopTruth& truth) { return to_string(truth.protocol); },
+          doc("LoopTruth::protocol"))
       .def_ro("unlisted_have_none", &LoopTruth::unlisted_have_none,
               doc("LoopTruth::unlisted_have_none"))
       .def("__len__", [](const LoopTruth& truth) { return truth.queries.size(); })
@@ -229,8 +291,35 @@ void bind_truth(nb::module_& m) {
 
 }  // namespace
 
+void bind_image_set(nb::module_& m) {
+  nb::class_<ImageSet> bound(m, "ImageSet", doc("ImageSet"));
+  bound
+      .def(
+          "__init__",
+          [](ImageSet* self, const std::vector<std::string>& names,
+             const std::optional<Trajectory>& poses) {
+            require(!poses || names.empty() || poses->size() == names.size(),
+                    "names: there is not one for each pose");
+            new (self) ImageSet{names, poses.value_or(Trajectory{}), {}, "", "poses"};
+          },
+          "names"_a = std::vector<std::string>{}, "poses"_a = nb::none(),
+          "The images of a set: their names, their poses, or both.")
+      .def_static(
+          "read", [](const std::filesystem::path& path) { return read_image_set(path.string()); },
+          "path"_a, doc("read_image_set"))
+      .def_ro("names", &ImageSet::names, doc("ImageSet::names"))
+      .def_prop_ro(
+          "poses", [](const ImageSet& set) { return set.poses; }, doc("ImageSet::poses"))
+      .def_ro("form", &ImageSet::form, doc("ImageSet::form"))
+      .def("__len__", &ImageSet::size)
+      .def("__repr__", [](const ImageSet& set) {
+        return fmt::format("<placegraph.loops.ImageSet: {} images, {}>", set.size(), set.form);
+      });
+}
+
 void bind_loops(nb::module_& m) {
   bind_option_set<RevisitOptions>(m, "RevisitOptionSet", doc("RevisitOptions"));
+  bind_image_set(m);
   bind_truth(m);
   nb::class_<LoopBenchmark> benchmark(m, "LoopBenchmark", doc("LoopBenchmark"));
   bind_outcome(benchmark);
@@ -248,8 +337,28 @@ void bind_loops(nb::module_& m) {
           [](const LoopBenchmark& b) {
             return TupleOf<std::optional<double>>{{b.recall_at.begin(), b.recall_at.end()}};
           },
-          "Shares of the positives with a true candidate among the 1, 5 and 10 best; each is None "
+          "Shares of the positives with a true candidate among the 1, 5, 10 and 20 best; each is None "
           "without positives.")
+      .def_prop_ro(
+          "recall_at_of_all",
+          [](const LoopBenchmark& b) {
+            return TupleOf<std::optional<double>>{
+                {b.recall_at_of_all.begin(), b.recall_at_of_all.end()}};
+          },
+          doc("LoopBenchmark::recall_at_of_all"))
+      .def_prop_ro(
+          "protocol", [](const LoopBenchmark& b) { return to_string(b.protocol); },
+          doc("LoopBenchmark::protocol"))
+      .def_prop_ro(
+          "scores", [](const LoopBenchmark& b) { return to_string(b.scores); },
+          doc("LoopBenchmark::scores"))
+      .def_prop_ro(
+          "average_precision_of_answers",
+          [](const LoopBenchmark& b) { return b.curve.average_precision_of_answers; },
+          doc("PrecisionRecall::average_precision_of_answers"))
+      .def_prop_ro(
+          "area_of_answers", [](const LoopBenchmark& b) { return b.curve.area_of_answers; },
+          doc("PrecisionRecall::area_of_answers"))
       .def_prop_ro(
           "average_precision", [](const LoopBenchmark& b) { return b.curve.average_precision; },
           doc("PrecisionRecall::average_precision"))
@@ -266,11 +375,17 @@ void bind_loops(nb::module_& m) {
            "Agreement of scores that are probabilities with the share of right candidates, by "
            "tenths of the probability.");
   m.def("read_loop_predictions", &read_predictions, "path"_a, "format"_a = "scores",
+        "top_k_scores"_a = "", "queries"_a = nb::none(), "database"_a = nb::none(),
         "Reads the loop closures that a place recognizer proposes, as columns query, candidate and "
-        "score.\n\n`format`: 'scores' (lines `query candidate score`), 'ibow' or 'run' (loops.csv "
-        "of a run).");
+        "score, and what the file says that its scores are.\n\n`format`: 'scores' (lines `query "
+        "candidate score`), 'ibow', 'run' (loops.csv of a run), 'topk' or 'matrix'. `queries` and "
+        "`database`: images whose names stand in the file.");
+  m.def("search_columns", &search_columns, "candidate"_a, "score"_a,
+        "Columns query, candidate and score of the results of a search (Q x K), -1: none.");
+  m.def("matrix_columns", &matrix_columns, "score"_a,
+        "Columns query, candidate and score of a matrix of scores (Q x M), NaN: none.");
   m.def("judge_loops", &judged, "truth"_a, "query"_a, "candidate"_a, "score"_a, "tolerance"_a = 0,
-        doc("judge_loops"));
+        "scores"_a = "similarity", doc("judge_loops"));
 }
 
 }  // namespace placegraph::python

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/loops/loop_file.h>
 
 #include "apps/places/train_vocabulary.h"
 #include "apps/support/output.h"

@@ -3,7 +3,7 @@
 #include <placegraph/eval/loops/loop_truth_from_poses.h>
 #include <placegraph/graph/core/angle.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/loops/loop_file.h>
 #include <placegraph/io/trajectories/trajectory_file.h>
 
 #include <numbers>

@@ -2,7 +2,7 @@
 #include <placegraph/graph/core/random.h>
 #include <placegraph/io/exports/colmap_cameras.h>
 #include <placegraph/io/exports/colmap_reader.h>
-#include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/files/little_endian.h>
 
 #include <iterator>
 

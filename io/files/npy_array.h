@@ -13,9 +13,10 @@ struct NpyArray {
 
 /// Reads the bytes of a `.npy` file of versions 1 to 3.
 ///
-/// Floats of 4 and 8 bytes and signed integers of 4 and 8 bytes, little-endian; in the order of C
-/// or of Fortran. `what` names the file in messages. Throws FileError for another type, more than
-/// two dimensions, a damaged header, or a number of bytes that is not the one of the shape.
+/// Floats of 4 and 8 bytes, integers of 1 to 8 bytes and truth values, little-endian; in the order
+/// of C or of Fortran. `what` names the file in messages. Throws FileError for another type (objects
+/// are never unpickled), more than two dimensions, a damaged header, or a number of bytes that is not
+/// the one of the shape.
 NpyArray read_npy(const std::string& bytes, const std::string& what);
 
 /// The bytes of a `.npy` file, version 1, of 8-byte floats.

@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/measurements/loop_file.h>
+#include <placegraph/io/loops/loop_file.h>
 
 #include "tests/support/message_of.h"
 #include "tests/support/temporary_folder.h"
@@ -39,6 +39,79 @@ TEST_F(LoopFile, ReadsScoresWithAndWithoutAStage) {
   EXPECT_DOUBLE_EQ(found[1].score, -100);
   EXPECT_EQ(found[1].stage, "geometry");
   EXPECT_EQ(found[1].line, 4);
+}
+
+// The same four predictions in the forms in which tools write tables.
+TEST_F(LoopFile, TablesOfAnySeparatorHeaderAndNumbersAreTheSame) {
+  for (const char* text :
+       {"60 0 0.5\n60 1 0.25\n61 7 -2\n62 3 1e-3\n", "60,0,0.5\n60,1,0.25\n61,7,-2\n62,3,1e-3\n",
+        "60; 0; 0.5\n60; 1; 0.25\n61; 7; -2\n62; 3; 1e-3\n",
+        "60\t0\t0.5\n60\t1\t0.25\n61\t7\t-2\n62\t3\t1e-3\n",
+        "query,candidate,score\n60,0,0.5\n60,1,0.25\n61,7,-2\n62,3,1e-3\n",
+        "\xef\xbb\xbfscore,candidate,query\r\n0.5,0,60\r\n0.25,1,60\r\n-2,7,61\r\n1e-3,3,62\r\n",
+        ",query,candidate,score\n0,60,0,0.5\n1,60,1,0.25\n2,61,7,-2\n3,62,3,1e-3\n",
+        "# query candidate score\n60 0 0.5\n60 1 0.25\n61 7 -2\n62 3 1e-3\n",
+        "# candidate query score\n0 60 0.5\n1 60 0.25\n7 61 -2\n3 62 1e-3\n",
+        "Query_ID,Match,Similarity,seconds\n60,0,0.5,9\n60,1,0.25,9\n61,7,-2,9\n62,3,1e-3,9\n",
+        "6.000000000000000000e+01 0.000000e+00 5.0e-01\n60.0 1.0 0.25\n61 7 -2\n62 3 1e-3\n"}) {
+    const auto found =
+        read_loop_predictions(folder.write("found.csv", text), LoopFileFormat::kScores);
+    ASSERT_EQ(found.size(), 4u) << text;
+    EXPECT_EQ(found[1].query, FrameId(60)) << text;
+    EXPECT_EQ(found[1].candidate, FrameId(1)) << text;
+    EXPECT_DOUBLE_EQ(found[2].score, -2) << text;
+    EXPECT_EQ(found[3].candidate, FrameId(3)) << text;
+  }
+}
+
+TEST_F(LoopFile, AHeaderSaysWhatScoresAre) {
+  const auto kind = [&](const std::string& header) {
+    return read_loop_prediction_file(folder.write("found.csv", header + "\n1,0,0.5\n"), {}).scores;
+  };
+  EXPECT_EQ(kind("query,candidate,distance"), ScoreKind::kDistance);
+  EXPECT_EQ(kind("query,candidate,score"), ScoreKind::kSimilarity);
+  EXPECT_EQ(read_loop_prediction_file(folder.write("found.csv", "1,0,0.5\n"), {}).scores,
+            std::nullopt);
+  EXPECT_THAT(refusal("query,score\n1,0.5\n"), HasSubstr("names no column candidate"));
+  EXPECT_THAT(refusal("query,candidate,score\n1,0,0.5\n2,1\n"),
+              HasSubstr("found.txt:3: 2 columns, and the header names 3"));
+}
+
+TEST_F(LoopFile, ResultsOfASearchAreRowsOfCandidates) {
+  LoopFileOptions options;
+  options.format = LoopFileFormat::kTopK;
+  options.scores_of_top_k = folder.write("distances.txt", "0.1 0.2\n0.3 0\n");
+  const std::string path = folder.write("indices.txt", "5 7\n2 -1\n");
+  const auto found = read_loop_prediction_file(path, options).predictions;
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[2].query, FrameId(1));
+  EXPECT_EQ(found[2].candidate, FrameId(2));
+  EXPECT_DOUBLE_EQ(found[1].score, 0.2);
+  options.scores_of_top_k.clear();
+  EXPECT_DOUBLE_EQ(read_loop_prediction_file(path, options).predictions[1].score, -2);
+  options.scores_of_top_k = folder.write("distances.txt", "0.1\n");
+  EXPECT_THAT(test::message_of([&] { (void)read_loop_prediction_file(path, options); }),
+              HasSubstr("has 1 x 1 scores"));
+}
+
+TEST_F(LoopFile, NamesOfImagesStandForThem) {
+  ImageSet queries, database;
+  queries.names = {"query/q1.jpg", "query/q2.jpg"};
+  database.names = {"db/a/1.jpg", "db/b/1.jpg", "db/c.jpg"};
+  LoopFileOptions options;
+  options.queries = &queries;
+  options.candidates = &database;
+  const auto read = [&](const std::string& text) {
+    return read_loop_prediction_file(folder.write("pairs.txt", text), options).predictions;
+  };
+  const auto found = read("query/q2.jpg db/c.jpg\nq2.jpg db/b/1.jpg\nq1.jpg db/a/1.jpg\n");
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0].query, FrameId(1));
+  EXPECT_EQ(found[1].candidate, FrameId(1));
+  EXPECT_GT(found[0].score, found[1].score);
+  EXPECT_DOUBLE_EQ(read("q1.jpg,db/c.jpg,0.5\n")[0].score, 0.5);
+  EXPECT_THAT(test::message_of([&] { (void)read("q1.jpg 1.jpg\n"); }),
+              HasSubstr("pairs.txt:1: candidate: '1.jpg' is none of its images"));
 }
 
 TEST_F(LoopFile, WritesWhatItReads) {
@@ -114,6 +187,20 @@ TEST_F(LoopFile, TellsTheThreeFormsOfGroundTruthApart) {
   EXPECT_EQ(matrix.format, LoopTruthFormat::kMatrix);
   EXPECT_THAT(matrix.truth.queries.at(FrameId(1)).matches, ElementsAre(FrameId(0)));
   EXPECT_THAT(matrix.truth.queries.at(FrameId(2)).matches, ElementsAre(FrameId(1)));
+}
+
+TEST_F(LoopFile, AMatrixOfTwoSetsNeedsNotBeSquare) {
+  for (const char* text : {"1 0 0 0\n1 1 0 0\n0 0 1 0\n", "1,0,0,0\n1,1,0,0\n0,0,1,0\n",
+                           "1.0 0.0 0.0 0.0\n1.0 1.0 0.0 0.0\n0.0 0.0 1.0 0.0\n",
+                           "d0;d1;d2;d3\n1;0;0;0\n1;1;0;0\n0;0;1;0\n",
+                           ",d0,d1,d2,d3\nq0,1,0,0,0\nq1,1,1,0,0\nq2,0,0,1,0\n"}) {
+    const LoopTruthFile matrix = truth(text);
+    EXPECT_EQ(matrix.format, LoopTruthFormat::kMatrix) << text;
+    EXPECT_EQ(matrix.truth.protocol, LoopProtocol::kQueryDatabase) << text;
+    EXPECT_THAT(matrix.truth.queries.at(FrameId(1)).matches, ElementsAre(FrameId(0), FrameId(1)));
+    EXPECT_EQ(matrix.form, "a matrix of 3 x 4 matches") << text;
+  }
+  EXPECT_EQ(truth("1 1 0\n1 1 1\n0 1 1\n").truth.protocol, LoopProtocol::kUndecided);
 }
 
 TEST_F(LoopFile, NamesTheLineOfBrokenGroundTruth) {

@@ -1,15 +1,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/evo/npy_array.h>
-#include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/files/npy_array.h>
+#include <placegraph/io/files/little_endian.h>
 #include <placegraph/io/files/text_file.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <ranges>
 #include <string_view>
 
 namespace placegraph {
@@ -61,6 +63,37 @@ std::vector<double> npy_numbers(std::string_view bytes) {
   return values;
 }
 
+/// A type of numbers by its name in the header.
+struct NumberType {
+  std::string_view name;
+  std::size_t size;  ///< [bytes]
+  std::vector<double> (*read)(std::string_view);
+};
+
+constexpr std::array kNumberTypes = {NumberType{"<f8", 8, npy_numbers<double>},
+                                     NumberType{"<f4", 4, npy_numbers<float>},
+                                     NumberType{"<i8", 8, npy_numbers<std::int64_t>},
+                                     NumberType{"<i4", 4, npy_numbers<std::int32_t>},
+                                     NumberType{"<i2", 2, npy_numbers<std::int16_t>},
+                                     NumberType{"|i1", 1, npy_numbers<std::int8_t>},
+                                     NumberType{"<u8", 8, npy_numbers<std::uint64_t>},
+                                     NumberType{"<u4", 4, npy_numbers<std::uint32_t>},
+                                     NumberType{"<u2", 2, npy_numbers<std::uint16_t>},
+                                     NumberType{"|u1", 1, npy_numbers<std::uint8_t>},
+                                     NumberType{"|b1", 1, npy_numbers<std::uint8_t>}};
+
+/// The type that the header's `descr` names, in quotes.
+const NumberType& number_type(std::string_view descr, const std::string& what) {
+  const std::string_view quoted = descr.substr(0, descr.find_first_of(",}"));
+  for (const NumberType& type : kNumberTypes)
+    if (quoted.substr(1, 3) == type.name && quoted.size() >= 5) return type;
+  if (quoted.substr(1).starts_with("|O"))
+    throw FileError(what,
+                    "has objects of Python, which only unpickling could read: save numbers alone");
+  throw FileError(what, fmt::format("has numbers of type {}, known are {}", quoted,
+                                    fmt::join(kNumberTypes | std::views::transform(&NumberType::name), ", ")));
+}
+
 /// The header of a file and what follows it.
 struct NpyParts {
   std::string_view header, numbers;
@@ -97,8 +130,8 @@ NpyArray read_npy(const std::string& bytes, const std::string& what) {
   if (shape->size() > 2)
     throw FileError(what, fmt::format("has {} dimensions, at most 2 are read", shape->size()));
   NpyArray array{*shape, {}};
-  const std::string_view name = type->substr(1, 3);  // in quotes
-  const std::size_t size = name.ends_with('8') ? 8 : 4;
+  const NumberType& number = number_type(*type, what);
+  const std::size_t size = number.size;
   std::size_t left = parts.numbers.size() / size;
   bool fits = parts.numbers.size() % size == 0;
   for (const std::size_t each : *shape) {
@@ -109,17 +142,7 @@ NpyArray read_npy(const std::string& bytes, const std::string& what) {
   if (!fits || left != (empty ? 0 : 1))
     throw FileError(what, fmt::format("has {} bytes of numbers, which is not its shape ({})",
                                       parts.numbers.size(), fmt::join(*shape, ", ")));
-  if (name == "<f8")
-    array.values = npy_numbers<double>(parts.numbers);
-  else if (name == "<f4")
-    array.values = npy_numbers<float>(parts.numbers);
-  else if (name == "<i8")
-    array.values = npy_numbers<std::int64_t>(parts.numbers);
-  else if (name == "<i4")
-    array.values = npy_numbers<std::int32_t>(parts.numbers);
-  else
-    throw FileError(
-        what, fmt::format("has numbers of type {}, known are <f8, <f4, <i8, <i4", in_quotes(name)));
+  array.values = number.read(parts.numbers);
   if (order->starts_with("True") && shape->size() == 2) {
     const std::size_t rows = (*shape)[0], columns = (*shape)[1];
     const std::vector<double> by_column = array.values;

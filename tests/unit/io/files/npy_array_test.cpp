@@ -1,7 +1,7 @@
 #include <placegraph/graph/core/error.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/evo/npy_array.h>
-#include <placegraph/io/exports/little_endian.h>
+#include <placegraph/io/files/npy_array.h>
+#include <placegraph/io/files/little_endian.h>
 
 #include "tests/support/message_of.h"
 
