@@ -72,7 +72,7 @@ void add_truth(CLI::App& command, LoopsArguments& a) {
       ->check(CLI::ExistingPath);
   command.add_flag("--within", a.within,
                    "candidates are older images of the queries' own drive; needed where the truth "
-                   "does not tell");
+                   "does not say it");
   command
       .add_option("--radius", a.revisit.same.radius_m,
                    "with --true-poses: largest distance of the same place [m]")

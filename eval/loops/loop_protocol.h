@@ -8,7 +8,7 @@
 
 namespace [[gnu::visibility("default")]] placegraph {
 
-/// What a user says of the candidates of the queries; nothing: the truth and the predictions decide.
+/// What a user says of the candidates of queries; nothing: truth and predictions decide.
 struct LoopProtocolChoice {
   std::optional<bool> within;           ///< true: one drive; false: queries against a database
   std::optional<std::int64_t> min_age;  ///< smallest age of a candidate, in images

@@ -23,16 +23,16 @@ void visit(OptionVisitor& field, RevisitOptions& options);
 /// for options that check() refuses.
 LoopTruth loop_truth_from_poses(const Trajectory& truth, const RevisitOptions& options);
 
-/// Finds which images of a database show the places of queries, from the poses of both in one frame.
+/// Finds which images of a database show the places of queries, from the poses of both.
 ///
-/// One pose T_world_cam per image [m]. Queries without a pose are not judged, database images
+/// One pose T_world_cam per image, in one frame [m]. Queries without a pose are not judged, database images
 /// without one are no matches. If either has positions alone, distances decide. Throws ArgumentError
 /// for options that check() refuses.
 LoopTruth loop_truth_between(const Trajectory& queries, const Trajectory& database,
                              const SameView& same);
 
-/// What speaks against comparing the headings of true poses: they are unknown, or never change.
-/// Nothing where any heading agrees (`heading_deg` of 180).
+/// What speaks against comparing the headings of true poses.
+/// They are unknown, or never change. Nothing where any heading agrees (`heading_deg` of 180).
 std::vector<Doubt> heading_doubts(const Trajectory& truth, const SameView& same);
 
 }  // namespace placegraph

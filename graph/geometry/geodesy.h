@@ -17,8 +17,8 @@ struct GeodeticPosition {
   void check() const;
 };
 
-/// The position of UTM coordinates [m] of a zone from 1 to 60, on the ellipsoid (UTMUPS of
-/// GeographicLib). Throws ArgumentError for a zone or coordinates that UTM does not have.
+/// The position of UTM coordinates [m] of a zone from 1 to 60, on the ellipsoid.
+/// UTMUPS of GeographicLib. Throws ArgumentError for a zone or coordinates that UTM does not have.
 GeodeticPosition from_utm(int zone, bool north, double easting_m, double northing_m);
 
 /// Cartesian east-north-up coordinates [m] about an origin.

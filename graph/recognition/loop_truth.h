@@ -10,7 +10,7 @@ namespace [[gnu::visibility("default")]] placegraph {
 
 /// Which images are candidates of a query.
 enum class LoopProtocol {
-  kUndecided,      ///< the source of the truth does not tell; see judge_loops
+  kUndecided,      ///< the source of the truth does not say it; see judge_loops
   kWithinDrive,    ///< older images of the query's own drive
   kQueryDatabase,  ///< images of another set, whose numbers have nothing to do with those of queries
 };

@@ -1,13 +1,15 @@
 #pragma once
 #include <placegraph/graph/recognition/loop_prediction.h>
 #include <placegraph/graph/recognition/loop_truth.h>
-#include <placegraph/io/loops/image_set.h>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace [[gnu::visibility("default")]] placegraph {
+
+struct ImageSet;
 
 /// Formats of a file with the loop closures that a place recognizer proposes.
 enum class LoopFileFormat {
@@ -57,9 +59,9 @@ LoopPredictionFile read_loop_prediction_file(const std::string& path,
 /// Throws FileError as read_loop_prediction_file.
 std::vector<LoopPrediction> read_loop_predictions(const std::string& path, LoopFileFormat format);
 
-/// Predictions of a search: row q of `candidates` are the best of query q, in their order; -1: none.
+/// Predictions of a search, whose row q has the best candidates of query q in their order.
 ///
-/// Both are matrices row by row, of `columns` columns; without scores the order gives them: -1 for
+/// -1 stands for none. Both are matrices row by row, of `columns` columns; without scores the order gives them: -1 for
 /// the first, -2 for the second. Throws ArgumentError: sizes, a candidate that is no image, a score
 /// that is not finite, a candidate twice.
 std::vector<LoopPrediction> predictions_of_search(const std::vector<std::int64_t>& candidates,

@@ -3,6 +3,7 @@
 #include <placegraph/io/files/atomic_file.h>
 #include <placegraph/io/files/text_file.h>
 #include <placegraph/io/loops/delimited_table.h>
+#include <placegraph/io/loops/image_set.h>
 #include <placegraph/io/loops/loop_file.h>
 #include <placegraph/io/loops/name_index.h>
 #include <placegraph/io/loops/number_matrix.h>

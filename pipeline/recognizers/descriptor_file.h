@@ -1,6 +1,6 @@
 #pragma once
 #include <placegraph/frontend/places/descriptors/image_describer.h>
-#include <placegraph/io/evo/npy_array.h>
+#include <placegraph/io/files/npy_array.h>
 
 #include <string>
 

@@ -7,7 +7,7 @@ Prints one line for each violation, as file:line where there is one, and fails i
   a public header includes one of another project but Eigen, and graph/image/image.h OpenCV's cv::Mat,
   a public header opens the namespace without its visibility, so that a shared library would hide it,
   the command line (apps) or the Python module (python/src) includes a header of a library that is not public,
-  more than 313 public headers; more than 40 behind pipeline/slam.h, or 95 behind pipeline/placegraph.h.
+  more than 315 public headers; more than 40 behind pipeline/slam.h, or 95 behind pipeline/placegraph.h.
 """
 import os
 import re
@@ -16,7 +16,7 @@ import sys
 from source_includes import includes_of, layer_of
 
 LIST = "cmake/public_headers.txt"
-MOST_HEADERS = 313  # the header of all doors is installed besides
+MOST_HEADERS = 315  # the header of all doors is installed besides
 MOST_BEHIND = {"pipeline/slam.h": 40, "pipeline/placegraph.h": 95}
 USERS = ("apps", "python/src")
 FOREIGN = re.compile(r"[a-z_]+$|Eigen/")  # the standard library's and Eigen's

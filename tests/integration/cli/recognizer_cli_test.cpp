@@ -1,7 +1,7 @@
 // Recognizers that are not the library's: `--recognizer` of `places match` and `run`.
 #include <fmt/format.h>
 #include <placegraph/graph/core/random.h>
-#include <placegraph/io/evo/npy_array.h>
+#include <placegraph/io/files/npy_array.h>
 
 #include <nlohmann/json.hpp>
 

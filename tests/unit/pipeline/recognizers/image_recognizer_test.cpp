@@ -2,7 +2,7 @@
 #include <placegraph/frontend/places/descriptors/image_describer.h>
 #include <placegraph/frontend/places/place_recognizer.h>
 #include <placegraph/graph/core/error.h>
-#include <placegraph/io/evo/npy_array.h>
+#include <placegraph/io/files/npy_array.h>
 #include <placegraph/pipeline/recognizers/descriptor_file.h>
 #include <placegraph/pipeline/recognizers/image_recognizer.h>
 
