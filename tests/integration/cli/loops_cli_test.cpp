@@ -62,10 +62,69 @@ TEST_F(Loops, TakesTheTruthFromPosesAndSaysHow) {
   EXPECT_EQ(json.at("positives"), 2);
   EXPECT_EQ(json.at("dropped"), 1);
   EXPECT_EQ(json.at("r_at_1"), 0.5);
-  EXPECT_EQ(json.at("protocol"), "poses within 2 m and 10 deg, candidates at least 2 images older");
+  EXPECT_EQ(json.at("protocol"),
+            "within one drive: poses within 2 m and 10 deg, candidates at least 2 images older");
   write_file(dir / "found.txt", "3 0 2\n5 0 1\n");
   expect_usage_error("loops --predictions found.txt --true-poses poses.txt",
-                     "found.txt:2: image 5, and the poses are of 5");
+                     "found.txt:2: query 5, and there are 5 images of the drive");
+}
+
+// Two drives in step: image q of the one shows images q - 1, q and q + 1 of the other.
+TEST_F(Loops, ASquareMatrixMayBeOfTwoSets) {
+  constexpr int kImages = 20;
+  std::string matrix, found;
+  for (int q = 0; q < kImages; ++q) {
+    for (int m = 0; m < kImages; ++m) matrix += std::abs(q - m) <= 1 ? "1 " : "0 ";
+    matrix += "\n";
+    found += std::to_string(q) + " " + std::to_string(q) + " 0." + std::to_string(10 + q) + "\n";
+  }
+  write_file(dir / "matrix.txt", matrix);
+  write_file(dir / "found.txt", found);
+  const auto result = run("loops --predictions found.txt --truth matrix.txt --min-age 0 --json");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("comparison"), "queries against a database");
+  EXPECT_EQ(json.at("r_at_1"), 1);
+  EXPECT_DOUBLE_EQ(json.at("ap").get<double>(), 1);
+  expect_usage_error("loops --predictions found.txt --truth matrix.txt", "--min-age 0");
+}
+
+TEST_F(Loops, TwoSetsAreGivenByThePositionsOrNamesOfTheirImages) {
+  write_file(dir / "database.csv", "image,latitude,longitude\na.jpg,48,11\nb.jpg,48.001,11\n");
+  write_file(dir / "queries.csv", "image,latitude,longitude\nq.jpg,48.00101,11\n");
+  write_file(dir / "found.csv", "query,match,distance\nq.jpg,b.jpg,0.25\nq.jpg,a.jpg,0.5\n");
+  const auto result = run(
+      "loops --predictions found.csv --queries queries.csv --database database.csv --radius 25 "
+      "--heading 180 --json --curve curve.csv");
+  ASSERT_EQ(result.code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("protocol"),
+            "queries against a database: positions within 25 m (latitudes and longitudes)");
+  EXPECT_EQ(json.at("scores"), "distance");
+  EXPECT_EQ(json.at("r_at_1"), 1);
+  EXPECT_THAT(test::read_file(dir / "curve.csv"), HasSubstr("found.csv,0.25,1,0,1,1"));
+  expect_usage_error("loops --predictions found.csv --queries queries.csv", "both are needed");
+  write_file(dir / "queries.csv", "x,y\n0,0\n");
+  expect_usage_error(
+      "loops --predictions found.csv --queries queries.csv --database database.csv", "queries.csv");
+}
+
+TEST_F(Loops, DistancesAreToldAndTaken) {
+  std::string found, truth;
+  for (int q = 0; q < 20; ++q) {
+    for (int k = 0; k < 3; ++k)
+      found += std::to_string(q + 30) + " " + std::to_string((q + 7 * k) % 20) + " 0." +
+               std::to_string(k + 1) + std::to_string(q) + "\n";
+    truth += std::to_string(q + 30) + " " + std::to_string(q) + "\n";
+  }
+  write_file(dir / "found.txt", found);
+  write_file(dir / "gt.txt", truth);
+  const auto as_they_are = run("loops --predictions found.txt --truth gt.txt --min-age 0");
+  EXPECT_THAT(as_they_are.err, HasSubstr("they seem to be distances"));
+  const auto taken =
+      run("loops --predictions found.txt --truth gt.txt --min-age 0 --scores distance --json");
+  EXPECT_EQ(nlohmann::json::parse(taken.out).at("r_at_1"), 1) << taken.err;
+  EXPECT_EQ(taken.err, "");
 }
 
 TEST_F(Loops, RefusesBrokenInputWithItsLine) {
@@ -73,7 +132,7 @@ TEST_F(Loops, RefusesBrokenInputWithItsLine) {
   expect_usage_error("loops --predictions ours.txt --truth gt.txt", "ours.txt:2: 2 columns");
   write_file(dir / "gt.txt", "10 0 5 1\n11 0 5 9\n");
   expect_usage_error("loops --predictions theirs.txt --truth gt.txt", "gt.txt:2: match 9");
-  expect_usage_error("loops --predictions theirs.txt", "one of --truth and --true-poses is needed");
+  expect_usage_error("loops --predictions theirs.txt", "one of --truth, --true-poses");
   expect_usage_error("loops --predictions theirs.txt --truth gt.txt --format other", "other");
   expect_usage_error("loops --predictions none.txt --truth gt.txt", "none.txt");
   write_file(dir / "gt.txt", "10 0 5 1\n");
