@@ -52,7 +52,11 @@ void add_drive(const LoopsArguments& arguments, GivenTruth& given) {
 /// The true matches of two sets, from where their images were taken.
 void add_sets(const LoopsArguments& arguments, GivenTruth& given) {
   const SameView& same = arguments.revisit.same;
-  put_in_one_frame(*given.database, *given.queries);
+  try {
+    put_in_one_frame(*given.database, *given.queries);
+  } catch (const ArgumentError& error) {
+    throw FileError(arguments.queries, error.what());
+  }
   const bool headings =
       given.queries->poses.has_orientation && given.database->poses.has_orientation;
   Trajectory both = given.database->poses;

@@ -39,7 +39,7 @@ TEST_F(LoopsCommand, CountsHitsAndMisses) {
   EXPECT_EQ(found.predicted_queries, 2);
   EXPECT_NEAR(found.recall_at[0].value(), 1.0 / 3, 1e-12);
   EXPECT_EQ(result.systems[0].name, "found.txt");
-  EXPECT_EQ(result.protocol, "matches and candidates listed per query");
+  EXPECT_EQ(result.protocol, "within one drive: matches and candidates listed per query");
   const json report = json::parse(to_json(result));
   EXPECT_EQ(report["hits"], 1);
   EXPECT_EQ(report["misses"], 1);
@@ -90,7 +90,7 @@ TEST_F(LoopsCommand, JudgesByPoses) {
   EXPECT_EQ(json::parse(to_json(result))["hits"], 2);
   folder.write("found.txt", "10 0 0.9\n");
   EXPECT_THAT(message_of([&] { loops(arguments); }),
-              HasSubstr("found.txt:1: image 10, and the poses are of 10"));
+              HasSubstr("found.txt:1: query 10, and there are 10 images of the drive"));
 }
 
 TEST_F(LoopsCommand, TellsWhetherProbabilitiesHold) {
