@@ -66,7 +66,7 @@ void DelimitedTable::find_header(IsName is_name) {
   const auto is_number = [](std::string_view field) { return parse_double(field).has_value(); };
   if (fields.empty() || std::none_of(fields.begin(), fields.end(), is_number)) {
     if (!fields.empty()) take_header(fields, is_name);
-  } else if (!remark.empty()) {
+  } else if (is_name && !remark.empty()) {
     const std::size_t columns = fields.size();
     const char of_rows = std::exchange(separator_, separator_of(remark));
     split(remark, fields);

@@ -15,15 +15,15 @@ inline constexpr std::int64_t kMaxImages = 1'000'000'000;
 /// A text file with one row per line, whose separator and header are found.
 ///
 /// Fields are separated by commas, semicolons or tabs if the first row has one, else by blanks. A
-/// header is a first line, or a comment before it, with a field that is no number; names are in lower
-/// case and without quotes. A first column without a name (the row numbers of pandas) is left out.
+/// header is a first line without numbers; names are in lower case and without quotes. A first column
+/// without a name (the row numbers of pandas) is left out.
 class DelimitedTable {
  public:
   /// Whether a field, in lower case, is the name of a column.
   using IsName = bool (*)(const std::string& field);
 
-  /// With `is_name`, a first line is a header only if it has such a field. Throws FileError as
-  /// TextFile.
+  /// With `is_name`, a first line is a header only if it has such a field, and so is a comment before
+  /// it. Throws FileError as TextFile.
   explicit DelimitedTable(const std::string& path, IsName is_name = nullptr);
 
   /// Names of the columns; empty without a header.

@@ -164,13 +164,12 @@ bool names_a_place(const std::string& field) {
 }
 
 bool has_place_header(const std::string& path) {
-  const DelimitedTable table(path);
-  return std::any_of(table.header().begin(), table.header().end(), names_a_place);
+  return !DelimitedTable(path, names_a_place).header().empty();
 }
 
 /// A table under a header that names latitude and longitude, or east and north.
 ImageSet read_place_table(const std::string& path) {
-  DelimitedTable table(path);
+  DelimitedTable table(path, names_a_place);
   const std::vector<std::string>& header = table.header();
   const auto name = column(header, {"image", "name", "filename", "file", "key", "path"});
   const auto x = column(header, {"easting", "utm_east", "utm_easting", "x"});

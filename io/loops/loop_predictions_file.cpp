@@ -113,7 +113,7 @@ std::string named_twice(const LoopPrediction& p) {
 }
 
 LoopPredictionFile read_table(const std::string& path, const LoopFileOptions& options) {
-  DelimitedTable table(path, options.queries || options.candidates ? names_a_column : nullptr);
+  DelimitedTable table(path, names_a_column);
   ScoreColumns columns = columns_of(table);
   const ImageColumn queries(options.queries, "query"), candidates(options.candidates, "candidate");
   const TextFile& file = table.file();

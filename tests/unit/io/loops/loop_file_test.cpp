@@ -189,6 +189,12 @@ TEST_F(LoopFile, TellsTheThreeFormsOfGroundTruthApart) {
   EXPECT_THAT(matrix.truth.queries.at(FrameId(2)).matches, ElementsAre(FrameId(1)));
 }
 
+TEST_F(LoopFile, ACommentBeforeListsIsNoHeaderOfTheirColumns) {
+  const LoopTruthFile lists = truth("# query match\n10 3\n11 4 5\n");
+  EXPECT_EQ(lists.format, LoopTruthFormat::kLists);
+  EXPECT_THAT(lists.truth.queries.at(FrameId(11)).matches, ElementsAre(FrameId(4), FrameId(5)));
+}
+
 TEST_F(LoopFile, AMatrixOfTwoSetsNeedsNotBeSquare) {
   for (const char* text : {"1 0 0 0\n1 1 0 0\n0 0 1 0\n", "1,0,0,0\n1,1,0,0\n0,0,1,0\n",
                            "1.0 0.0 0.0 0.0\n1.0 1.0 0.0 0.0\n0.0 0.0 1.0 0.0\n",
