@@ -1,22 +1,17 @@
 #include <fmt/format.h>
 #include <placegraph/graph/core/error.h>
+#include <placegraph/io/files/file_bytes.h>
 #include <placegraph/io/files/npy_array.h>
-#include <placegraph/io/files/text_file.h>
 #include <placegraph/io/loops/delimited_table.h>
 #include <placegraph/io/loops/number_matrix.h>
 
-#include <fstream>
-#include <iterator>
+#include <utility>
 
 namespace placegraph {
 namespace {
 
 NumberMatrix read_npy_matrix(const std::string& path) {
-  require_input_file(path);
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw FileError(path, "cannot be read");
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  NpyArray array = read_npy(bytes, path);
+  NpyArray array = read_npy(read_bytes(path), path);
   NumberMatrix matrix;
   matrix.rows = array.shape.empty() ? 1 : array.shape[0];
   matrix.columns = array.shape.size() < 2 ? 1 : array.shape[1];
