@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 
+#include "python/src/eval/loop_columns.h"
 #include "python/src/frontend/functions.h"
 #include "python/src/values/value_class.h"
 #include "python/src/warnings.h"
@@ -100,7 +101,8 @@ ScoreKind kind_of(const std::string& name) {
   return choice_of<ScoreKind>(name, names, "scores");
 }
 
-/// Columns of predictions.
+}  // namespace
+
 Table columns_of(const std::vector<LoopPrediction>& predictions) {
   std::vector<std::int64_t> query, candidate;
   std::vector<double> score;
@@ -116,6 +118,8 @@ Table columns_of(const std::vector<LoopPrediction>& predictions) {
   columns["score"] = owned_array(std::move(score), {n});
   return columns;
 }
+
+namespace {
 
 /// Columns of the predictions of a file, and what its scores are.
 std::pair<Table, std::optional<std::string>> read_predictions(const std::string& path,

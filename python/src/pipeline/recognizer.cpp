@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "python/src/arrays.h"
+#include "python/src/eval/loop_columns.h"
 #include "python/src/graph/images.h"
 
 namespace placegraph::python {
@@ -78,8 +79,7 @@ Table match_images(const nb::iterable& images, const nb::object& recognizer, int
   require(min_age >= 1, "min_age: at least 1 is needed");
   const OwnRecognizer own = recognizer_of(recognizer);
   require(own.retrieval != nullptr, "recognizer: there is none");
-  std::vector<std::int64_t> query, candidate;
-  std::vector<double> score;
+  std::vector<LoopPrediction> predictions;
   int i = 0;
   for (nb::handle each : images) {
     const bool colour = nb::hasattr(each, "ndim") && nb::cast<int>(each.attr("ndim")) == 3;
@@ -90,20 +90,12 @@ Table match_images(const nb::iterable& images, const nb::object& recognizer, int
     std::vector<PlaceSimilarity> list;
     if (i >= min_age) list = own.retrieval->query(image, 0, i - min_age);
     const auto best = std::ranges::max_element(list, {}, &PlaceSimilarity::score);
-    if (best != list.end()) {
-      query.push_back(i);
-      candidate.push_back(best->view);
-      score.push_back(best->score);
-    }
+    if (best != list.end())
+      predictions.push_back({FrameId(i), FrameId(best->view), best->score, {}, 0});
     own.retrieval->add(image);
     ++i;
   }
-  const std::size_t n = query.size();
-  Table columns;
-  columns["query"] = owned_array(std::move(query), {n});
-  columns["candidate"] = owned_array(std::move(candidate), {n});
-  columns["score"] = owned_array(std::move(score), {n});
-  return columns;
+  return columns_of(predictions);
 }
 
 }  // namespace
