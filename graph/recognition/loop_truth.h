@@ -1,6 +1,7 @@
 #pragma once
 #include <placegraph/graph/core/ids.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -35,5 +36,11 @@ struct LoopTruth {
   std::int64_t min_age = 0;
   LoopProtocol protocol = LoopProtocol::kUndecided;  ///< which images are candidates
 };
+
+/// The truth of a matrix of matches, row by row: row q is the query, column m the candidate.
+///
+/// With another number of columns than of rows it is of queries and a database, else undecided.
+/// Throws ArgumentError unless the values are whole rows of `columns`.
+LoopTruth loop_truth_of_matrix(const std::vector<bool>& matches, std::size_t columns);
 
 }  // namespace placegraph

@@ -100,8 +100,5 @@ struct LoopTruthFile {
 /// semicolons separate the fields, and a header of a matrix is passed over. Throws FileError with the
 /// line: another format, an image listed twice, matches outside their range, more than 1e9 images.
 LoopTruthFile read_loop_truth(const std::string& path);
-/// The truth of a matrix of matches, row by row: row q is the query, column m the candidate.
-/// Throws ArgumentError unless there are as many values as rows and columns say.
-LoopTruth loop_truth_of_matrix(const std::vector<bool>& matches, std::size_t columns);
 
 }  // namespace placegraph

@@ -161,24 +161,6 @@ LoopTruthFile read_rows(const TruthTable& table, const std::string& path) {
 
 }  // namespace
 
-LoopTruth loop_truth_of_matrix(const std::vector<bool>& matches, std::size_t columns) {
-  require(columns > 0 && matches.size() % columns == 0,
-          "loop_truth_of_matrix: the matches are no matrix of these columns");
-  LoopTruth truth;
-  const std::size_t rows = matches.size() / columns;
-  for (std::size_t q = 0; q < rows; ++q) {
-    LoopQuery query;
-    if (rows != columns) query.last = FrameId(static_cast<std::int64_t>(columns) - 1);
-    for (std::size_t m = 0; m < columns; ++m) {
-      if (!matches[q * columns + m]) continue;
-      query.matches.push_back(FrameId(static_cast<std::int64_t>(m)));
-    }
-    truth.queries.emplace(FrameId(static_cast<std::int64_t>(q)), std::move(query));
-  }
-  truth.protocol = rows != columns ? LoopProtocol::kQueryDatabase : LoopProtocol::kUndecided;
-  return truth;
-}
-
 LoopTruthFile read_loop_truth(const std::string& path) {
   if (is_npy(path)) return read_npy_truth(path);
   const TruthTable table = read_truth_table(path);

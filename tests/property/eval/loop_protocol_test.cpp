@@ -193,7 +193,7 @@ Recognizer recognizer(Random& random, int candidates, double separation) {
     for (int k = 0; k < candidates; ++k) {
       const bool hit = k == 0 && below(random, 3) > 0;
       list.push_back({FrameId(q), FrameId(hit ? right : 150 + k),
-                      random.gaussian() + (hit ? separation : 0), "", 0});
+                      random.normal() + (hit ? separation : 0), "", 0});
     }
     std::sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.score > b.score; });
     made.predictions.insert(made.predictions.end(), list.begin(), list.end());
