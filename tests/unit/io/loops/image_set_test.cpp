@@ -89,10 +89,10 @@ TEST_F(ImageSets, DistancesAcrossZonesAreThoseOnTheGround) {
 
 TEST_F(ImageSets, SetsInDifferentCoordinatesAreRefused) {
   ImageSet metres = set("0 0\n10 0\n", "metres.txt"), degrees = set("48.000 11.000\n48.001 11.000\n");
-  EXPECT_THAT(test::message_of([&] { put_in_one_frame(metres, degrees); }),
+  EXPECT_THAT(test::message_of<ArgumentError>([&] { put_in_one_frame(metres, degrees); }),
               HasSubstr("distances between them are unknown"));
   ImageSet names = set("a.jpg\nb.jpg\n", "names.txt");
-  EXPECT_THAT(test::message_of([&] { put_in_one_frame(names, degrees); }),
+  EXPECT_THAT(test::message_of<ArgumentError>([&] { put_in_one_frame(names, degrees); }),
               HasSubstr("no positions"));
   EXPECT_THAT(refusal("latitude,longitude\n98,11\n"), HasSubstr("images.txt:2: latitude: 98"));
   EXPECT_THAT(refusal(""), HasSubstr("images.txt"));

@@ -185,8 +185,8 @@ TEST_F(LoopFile, TellsTheThreeFormsOfGroundTruthApart) {
 
   const LoopTruthFile matrix = truth("0,0,0\n1,1,0\n0,1,1\n");
   EXPECT_EQ(matrix.format, LoopTruthFormat::kMatrix);
-  EXPECT_THAT(matrix.truth.queries.at(FrameId(1)).matches, ElementsAre(FrameId(0)));
-  EXPECT_THAT(matrix.truth.queries.at(FrameId(2)).matches, ElementsAre(FrameId(1)));
+  EXPECT_THAT(matrix.truth.queries.at(FrameId(1)).matches, ElementsAre(FrameId(0), FrameId(1)));
+  EXPECT_THAT(matrix.truth.queries.at(FrameId(2)).matches, ElementsAre(FrameId(1), FrameId(2)));
 }
 
 TEST_F(LoopFile, ACommentBeforeListsIsNoHeaderOfTheirColumns) {

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <placegraph/graph/core/error.h>
 #include <placegraph/io/files/npy_array.h>
 #include <placegraph/io/loops/loop_file.h>
 #include <placegraph/io/loops/name_index.h>
@@ -64,16 +65,16 @@ TEST_F(NumberMatrices, ScoresOfAllPairsAreReadByRowsAndNanIsNone) {
   EXPECT_EQ(found[2].query, FrameId(1));
   EXPECT_DOUBLE_EQ(found[3].score, -3);
   const double infinity = std::numeric_limits<double>::infinity();
-  EXPECT_THAT(test::message_of([&] { (void)predictions_of_matrix({0, infinity}, 2); }),
+  EXPECT_THAT(test::message_of<ArgumentError>([&] { (void)predictions_of_matrix({0, infinity}, 2); }),
               HasSubstr("query 0: the score of candidate 1 is infinite"));
 }
 
 TEST_F(NumberMatrices, ACandidateIsNamedOnceByASearch) {
-  EXPECT_THAT(test::message_of([&] { (void)predictions_of_search({4, 4}, {}, 2); }),
+  EXPECT_THAT(test::message_of<ArgumentError>([&] { (void)predictions_of_search({4, 4}, {}, 2); }),
               HasSubstr("query 0 has candidate 4 already"));
-  EXPECT_THAT(test::message_of([&] { (void)predictions_of_search({-2, 4}, {}, 2); }),
+  EXPECT_THAT(test::message_of<ArgumentError>([&] { (void)predictions_of_search({-2, 4}, {}, 2); }),
               HasSubstr("-2 is not an image"));
-  EXPECT_THAT(test::message_of([&] { (void)predictions_of_search({1, 2, 3}, {}, 2); }),
+  EXPECT_THAT(test::message_of<ArgumentError>([&] { (void)predictions_of_search({1, 2, 3}, {}, 2); }),
               HasSubstr("no matrix"));
 }
 
