@@ -107,7 +107,7 @@ TEST_F(LoopsCommand, TellsWhetherProbabilitiesHold) {
 TEST_F(LoopsCommand, RefusesArgumentsThatMeanNothing) {
   const LoopsArguments asked = arguments;
   arguments.truth.clear();
-  expect_refused("one of --truth and --true-poses is needed");
+  expect_refused("one of --truth, --true-poses, and --queries with --database is needed");
   arguments = asked;
   arguments.names = {"one", "two"};
   expect_refused("--systems: one for each of --predictions");
