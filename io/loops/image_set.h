@@ -26,11 +26,11 @@ struct ImageSet {
 /// Reads where the images of a set were taken, or how they are called.
 ///
 /// `path` is a trajectory (read_trajectory, positions alone too); a table under a header that names
-/// `latitude longitude`, `easting northing` or `x y`, and may name `heading` [deg, clockwise from
-/// north], `height` and `image`; two columns without a header; a list of names, one a line; or a
-/// folder of images. Names of the form `@ east @ north @ zone @ letter @ latitude @ longitude @ ... @
-/// heading @ ...` have positions (the convention of visual geo-localization, Berton et al. 2022);
-/// fields may be empty. Throws FileError with the line.
+/// latitude and longitude, easting and northing, or x and y, and may name heading [deg, clockwise from
+/// north], height and image; two columns without a header; a list of names, one a line; or a folder
+/// of images. Names have positions in the convention of visual geo-localization (Berton et al. 2022):
+/// `@ east @ north @ zone @ letter @ latitude @ longitude @ ... @ heading @ ...`, fields may be empty.
+/// Throws FileError with the line.
 ImageSet read_image_set(const std::string& path);
 
 /// Puts the poses of two sets into one frame, so that distances between them are in metres.

@@ -286,6 +286,9 @@ def _columns(predictions: Predictions, format: str) -> tuple[Any, str | None]:
             "predictions: three arrays (query, candidate, score), candidates and scores of a search "
             "(Q x K), a matrix of scores, a table or a file are needed")
     if len(predictions) == 2:
+        if numpy.ndim(predictions[0]) != 2 or numpy.ndim(predictions[1]) != 2:
+            raise _core.ArgumentError("predictions: two arrays are the candidates and scores of a "
+                                      "search, Q x K each")
         return _core.search_columns(predictions[0], predictions[1]), None
     return dict(zip(("query", "candidate", "score"), predictions)), None
 

@@ -49,8 +49,8 @@ LoopTruth truth_of_matrix(const ArrayArgument<bool>& argument, std::optional<std
   const auto matrix = argument.get("matrix", {kAny, kAny});
   const std::size_t columns = matrix.shape(1);
   require(columns > 0, "matrix: it has no columns");
-  LoopTruth truth =
-      loop_truth_of_matrix({matrix.data(), matrix.data() + matrix.shape(0) * columns}, columns);
+  const std::vector<bool> matches(matrix.data(), matrix.data() + matrix.shape(0) * columns);
+  LoopTruth truth = loop_truth_of_matrix(matches, columns);
   choose_protocol(truth, {within, min_age}, 0);
   return truth;
 }

@@ -102,7 +102,7 @@ Table match_images(const nb::iterable& images, const nb::object& recognizer, int
 
 void bind_recognizers(nb::module_& m) {
   using namespace nb::literals;
-  m.def("match_images", &match_images, "images"_a, "recognizer"_a, "min_age"_a,
+  m.def("match_images", &match_images, "images"_a, "recognizer"_a.none(), "min_age"_a,
         "The best older image of each image, as columns query, candidate and score.");
 }
 

@@ -97,7 +97,7 @@ void visit_many_members(T& v, const Visit& visit) {
   }
 }
 
-/// The same of 21 to 26 members.
+/// The same of 21 to 27 members.
 template <std::size_t count, class T, class Visit>
 void visit_most_members(T& v, const Visit& visit) {
   if constexpr (count == 21) {
@@ -115,9 +115,12 @@ void visit_most_members(T& v, const Visit& visit) {
   } else if constexpr (count == 25) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z] = v;
     visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z);
-  } else {
+  } else if constexpr (count == 26) {
     auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa] = v;
     visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa);
+  } else {
+    auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa, bb] = v;
+    visit(a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, w, x, y, z, aa, bb);
   }
 }
 
@@ -125,7 +128,7 @@ void visit_most_members(T& v, const Visit& visit) {
 template <class T, class Visit>
 void visit_members(T& value, const Visit& visit) {
   constexpr std::size_t count = count_members<T>();
-  static_assert(count >= 1 && count <= 26, "a struct of 1 to 26 members is needed");
+  static_assert(count >= 1 && count <= 27, "a struct of 1 to 27 members is needed");
   if constexpr (count <= 10)
     visit_few_members<count>(value, visit);
   else if constexpr (count <= 20)
