@@ -190,7 +190,8 @@ def read_array(path: Path, name: str | None = None) -> NDArray[Any]:
         try:
             arrays = io.loadmat(path)
         except NotImplementedError:  # version 7.3 is HDF5, with transposed arrays
-            return _of_hdf5(path, name).T
+            turned: NDArray[Any] = _of_hdf5(path, name).T
+            return turned
         names = [key for key in arrays if not key.startswith("__")]
         return numpy.asarray(arrays[_chosen(path, names, name)])
     return _of_hdf5(path, name)
@@ -198,7 +199,8 @@ def read_array(path: Path, name: str | None = None) -> NDArray[Any]:
 
 def _unpickled(path: str, load: Callable[[], Any]) -> NDArray[Any]:
     try:
-        return load()
+        loaded: NDArray[Any] = load()
+        return loaded
     except ValueError as error:
         raise _core.FileError(
             f"{path}: has objects of Python, which are not unpickled: load the file yourself if you "
@@ -212,7 +214,8 @@ def _of_hdf5(path: str, name: str | None) -> NDArray[Any]:
         names: list[str] = []
         file.visititems(lambda key, item: names.append(key)
                         if isinstance(item, h5py.Dataset) and item.ndim > 0 else None)
-        return file[_chosen(path, names, name)][()]
+        loaded: NDArray[Any] = file[_chosen(path, names, name)][()]
+        return loaded
 
 
 def _chosen(path: str, names: list[str], name: str | None) -> str:
@@ -265,12 +268,13 @@ def _columns(predictions: Predictions, format: str) -> tuple[Any, str | None]:
     """Columns query, candidate and score, and what the scores are said to be."""
     import numpy
 
-    if _is_array_file(predictions):
-        predictions = read_array(predictions)  # type: ignore[arg-type]
-    if isinstance(predictions, (str, os.PathLike)):
-        return _core.read_loop_predictions(os.fspath(predictions), format)
-    if isinstance(predictions, Mapping) or hasattr(predictions, "columns"):
-        table: Any = predictions
+    given: Any = predictions
+    if _is_array_file(given):
+        given = read_array(given)
+    if isinstance(given, (str, os.PathLike)):
+        return _core.read_loop_predictions(os.fspath(given), format)
+    if isinstance(given, Mapping) or hasattr(given, "columns"):
+        table: Any = given
         names = list(table)
         last = "distance" if "score" not in names and "distance" in names else "score"
         for name in ("query", "candidate", last):
@@ -279,18 +283,18 @@ def _columns(predictions: Predictions, format: str) -> tuple[Any, str | None]:
         kind = "distance" if last == "distance" else None
         return {key: table[of] for key, of in
                 (("query", "query"), ("candidate", "candidate"), ("score", last))}, kind
-    if isinstance(predictions, numpy.ndarray) and predictions.ndim == 2:
-        return _core.matrix_columns(predictions), None
-    if not isinstance(predictions, Sequence) or len(predictions) not in (2, 3):
+    if isinstance(given, numpy.ndarray) and given.ndim == 2:
+        return _core.matrix_columns(given), None
+    if not isinstance(given, Sequence) or len(given) not in (2, 3):
         raise _core.ArgumentError(
             "predictions: three arrays (query, candidate, score), candidates and scores of a search "
             "(Q x K), a matrix of scores, a table or a file are needed")
-    if len(predictions) == 2:
-        if numpy.ndim(predictions[0]) != 2 or numpy.ndim(predictions[1]) != 2:
+    if len(given) == 2:
+        if numpy.ndim(given[0]) != 2 or numpy.ndim(given[1]) != 2:
             raise _core.ArgumentError("predictions: two arrays are the candidates and scores of a "
                                       "search, Q x K each")
-        return _core.search_columns(predictions[0], predictions[1]), None
-    return dict(zip(("query", "candidate", "score"), predictions)), None
+        return _core.search_columns(given[0], given[1]), None
+    return dict(zip(("query", "candidate", "score"), given)), None
 
 
 def _truth(truth: Truth, options: RevisitOptions | None, min_age: int | None,

@@ -146,7 +146,7 @@ def test_two_sets_have_one_result_in_every_form(tmp_path: pathlib.Path, form: st
         assert result[f"r_at_{k}"] == pytest.approx(right[:, :k].any(axis=1).mean())
     assert result.protocol.startswith("queries against a database")
     assert loops.score(predictions, loops.truth_of_lists(
-        [(q, np.flatnonzero(row)) for q, row in enumerate(matches)])).metrics == result.metrics
+        [(q, np.flatnonzero(row).tolist()) for q, row in enumerate(matches)])).metrics == result.metrics
 
 
 def reference_curve(hit: np.ndarray, score: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -202,8 +202,8 @@ def test_two_sets_by_their_positions(program: str, tmp_path: pathlib.Path) -> No
                       "distance": random.random(20)}).to_csv(tmp_path / "found.csv")
     options = loops.RevisitOptions()
     options.same.radius_m, options.same.heading_deg = 2, 180
-    sets = [loops.ImageSet.read(tmp_path / name) for name in ("queries.csv", "database.csv")]
-    truth = loops.LoopTruth.between(*sets, options)
+    truth = loops.LoopTruth.between(loops.ImageSet.read(tmp_path / "queries.csv"),
+                                    loops.ImageSet.read(tmp_path / "database.csv"), options)
     apart = np.linalg.norm(queries[:, None] - database, axis=2)
     assert truth.matches == {q: np.flatnonzero(row <= 2).tolist() for q, row in enumerate(apart)}
     result = loops.score(tmp_path / "found.csv", truth)
