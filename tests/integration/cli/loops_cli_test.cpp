@@ -65,7 +65,7 @@ TEST_F(Loops, TakesTheTruthFromPosesAndSaysHow) {
   EXPECT_EQ(json.at("protocol"),
             "within one drive: poses within 2 m and 10 deg, candidates at least 2 images older");
   write_file(dir / "found.txt", "3 0 2\n5 0 1\n");
-  expect_usage_error("loops --predictions found.txt --true-poses poses.txt",
+  expect_usage_error("loops --predictions found.txt --true-poses poses.txt --heading 180",
                      "found.txt:2: query 5, and there are 5 images of the drive");
 }
 
